@@ -1,0 +1,1 @@
+//! Case files: as written, then checked and in SI, then built; and the one time loop.

@@ -1,0 +1,1 @@
+//! The taut program, callable as a function.

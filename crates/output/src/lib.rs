@@ -1,0 +1,1 @@
+//! What a run leaves behind: ParaView files, probe tables, summary and manifest.

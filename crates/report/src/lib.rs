@@ -1,0 +1,1 @@
+//! Pictures of particles and plots of probes.
