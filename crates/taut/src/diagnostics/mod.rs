@@ -1,0 +1,5 @@
+//! What is observed: values at material points, and disorder.
+
+mod material_point;
+
+pub use material_point::MaterialPoint;

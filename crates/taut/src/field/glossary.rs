@@ -1,0 +1,134 @@
+//! The quantities themselves.
+
+use super::{AsScalar, AsTensor, AsVector, Field, Rank};
+
+macro_rules! glossary {
+    ($($(#[$doc:meta])* $name:ident: $shape:ident, $symbol:literal, $unit:literal;)+) => {
+        /// Every quantity by name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Quantity {
+            $($(#[$doc])* $name,)+
+        }
+
+        impl Quantity {
+            /// All quantities, in the order of the glossary.
+            pub const ALL: &'static [Self] = &[$(Self::$name),+];
+
+            /// The name in files.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$name => stringify!($name)),+ }
+            }
+
+            /// The symbol in formulas.
+            #[must_use]
+            pub const fn symbol(self) -> &'static str {
+                match self { $(Self::$name => $symbol),+ }
+            }
+
+            /// The SI unit (in 2D per metre of depth where that applies).
+            #[must_use]
+            pub const fn unit(self) -> &'static str {
+                match self { $(Self::$name => $unit),+ }
+            }
+
+            /// The rank.
+            #[must_use]
+            pub const fn rank(self) -> Rank {
+                match self { $(Self::$name => <$shape as super::Shape>::RANK),+ }
+            }
+        }
+
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug)]
+            pub struct $name;
+            impl Field for $name {
+                type Shape = $shape;
+                const ID: Quantity = Quantity::$name;
+            }
+        )+
+    };
+}
+
+glossary! {
+    /// Position in the reference configuration.
+    ReferencePosition: AsVector, "X", "m";
+    /// Current position less reference position.
+    Displacement: AsVector, "u", "m";
+    /// Current position (updated Lagrangian bodies carry it; for the others it is X + u).
+    Position: AsVector, "x", "m";
+    /// Velocity.
+    Velocity: AsVector, "v", "m/s";
+    /// Acceleration.
+    Acceleration: AsVector, "a", "m/s^2";
+    /// Body force per mass.
+    BodyForce: AsVector, "b", "m/s^2";
+    /// 1 for every component that moves freely, 0 for a prescribed one.
+    Free: AsVector, "free", "1";
+    /// Velocity of the prescribed components.
+    PrescribedVelocity: AsVector, "v*", "m/s";
+    /// Mass (per depth in 2D).
+    Mass: AsScalar, "m", "kg";
+    /// Volume; of the reference configuration in a total Lagrangian body, of the last list otherwise.
+    Volume: AsScalar, "V", "m^3";
+    /// Density.
+    Density: AsScalar, "rho", "kg/m^3";
+    /// Density of the undeformed material.
+    RestDensity: AsScalar, "rho0", "kg/m^3";
+    /// Rate of the density.
+    DensityRate: AsScalar, "drho/dt", "kg/m^3/s";
+    /// Pressure, positive in compression.
+    Pressure: AsScalar, "p", "Pa";
+    /// Bulk sound speed sqrt(K/rho0).
+    SoundSpeed: AsScalar, "c0", "m/s";
+    /// Shear modulus.
+    ShearModulus: AsScalar, "G", "Pa";
+    /// Index of the body, as a number.
+    Body: AsScalar, "body", "1";
+    /// Kernel gradient correction.
+    Correction: AsTensor, "B", "1";
+    /// Deformation gradient.
+    DeformationGradient: AsTensor, "F", "1";
+    /// Rate of the deformation gradient.
+    DeformationRate: AsTensor, "dF/dt", "1/s";
+    /// What a total Lagrangian particle hands to its neighbours as stress: P B (nested) or
+    /// tau_r F^-T + zeta G J^(-2/d) 1 (hourglass-free).
+    NominalStress: AsTensor, "Q", "Pa";
+    /// zeta G J^(-2/d): stiffness of the hourglass-free pair force.
+    PairStiffness: AsScalar, "zeta G J^(-2/d)", "Pa";
+    /// Upper bound of the squared wave speed in the metric of the pair list.
+    WaveSpeedSquared: AsScalar, "c^2", "m^2/s^2";
+    /// Shear acceleration accumulated since the start (UL Eq. 20).
+    ShearAcceleration: AsVector, "A", "m/s^2";
+    /// Shear stress (in plane).
+    ShearStress: AsTensor, "s", "Pa";
+    /// Rate of the shear stress.
+    ShearStressRate: AsTensor, "ds/dt", "Pa/s";
+    /// Shear stress on the third axis in plane strain.
+    AxialShearStress: AsScalar, "s_zz", "Pa";
+    /// Rate of the shear stress on the third axis.
+    AxialShearStressRate: AsScalar, "ds_zz/dt", "Pa/s";
+    /// Energy dissipated by viscosity so far.
+    Dissipated: AsScalar, "W_d", "J";
+    /// Work of the shear forces so far, positive when stored.
+    ShearWork: AsScalar, "W_s", "J";
+    /// Work done on the particle by body forces and prescribed motion so far.
+    ExternalWork: AsScalar, "W_e", "J";
+    /// Force per reference volume (a sum over neighbours, not stored).
+    ForceDensity: AsVector, "f", "N/m^3";
+    /// Sum of (v_b - v_a) (x) grad W V_b (a sum over neighbours, not stored).
+    VelocityGradient: AsTensor, "L", "1/s";
+    /// Divergence of velocity times -1 (a sum over neighbours, not stored).
+    Compression: AsScalar, "-div v", "1/s";
+    /// Viscous power per volume (a sum over neighbours, not stored).
+    DissipationRate: AsScalar, "phi", "W/m^3";
+    /// Sum of X_ba (x) grad W V_b, whose inverse is B (not stored).
+    MomentMatrix: AsTensor, "M", "1";
+    /// Cauchy stress (for output).
+    CauchyStress: AsTensor, "sigma", "Pa";
+    /// sqrt(3/2 s:s) of the three-dimensional deviator (for output).
+    VonMisesStress: AsScalar, "sigma_vM", "Pa";
+    /// Spacing that the particle was made with (for output).
+    ParticleSpacing: AsScalar, "dp", "m";
+}

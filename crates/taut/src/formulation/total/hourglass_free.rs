@@ -1,0 +1,96 @@
+//! The hourglass-free formulation, `tl-hourglass-free` (TL section 3.3).
+
+use super::motion::{Force, Kick, Rate, Stress, Stretch};
+use super::reference::{Invert, MomentSum};
+use super::{FIELDS, Solid};
+use crate::field::Quantity;
+use crate::formulation::{Formulation, State};
+use crate::material::PairShear;
+use crate::math::{Real, Tensor};
+use crate::pass::{Now, Pair, PairSum};
+use crate::run::Run;
+
+/// rho0 a = sum_b (Q_a + Q_b) grad W V_b + sum_b (s_a + s_b) w_ab (u_a - u_b), where Q = tau_r F^-T + s 1 and
+/// s = zeta G J^(-2/d) (TL Eqs. 20, 27-29).
+///
+/// Written in displacements, and with s 1 inside Q, it is algebraically the form of the paper and exactly zero at rest for any
+/// arrangement of particles. There is no correction matrix in the force: with it the reference state of a free surface
+/// would not be in equilibrium (the paper's text suggests one, its figures were not made with one).
+#[derive(Clone, Copy, Debug)]
+pub struct HourglassFree<M> {
+    /// Material and damper. Without damping this formulation is unstable: the operators of force and strain are not
+    /// adjoint at free surfaces.
+    pub solid: Solid<M>,
+    /// The factor of Eq. (27).
+    pub zeta: f64,
+}
+
+impl<M: PairShear> HourglassFree<M> {
+    /// With the paper's zeta = 1.07 and damping, for smoothing length `h`.
+    #[must_use]
+    pub fn new(material: M, h: f64) -> Self {
+        Self { solid: Solid::new(material, h), zeta: 1.07 }
+    }
+}
+
+record! {
+    /// What a pair force needs.
+    Strained { q: NominalStress, pair: PairStiffness, u: Displacement }
+}
+
+/// The force sum.
+struct Momentum;
+
+impl<const D: usize> PairSum<D> for Momentum {
+    type Reads = Strained<f64, D>;
+    type Adds = Force<f64, D>;
+
+    #[inline(always)]
+    fn add<S: Real, const M: u8>(
+        &self,
+        sum: &mut Force<S, D>,
+        (a, b): (&Strained<S, D>, &Strained<S, D>),
+        ab: &Pair<S, D, M>,
+        _: &Now<S>,
+    ) {
+        ab.dot(&mut sum.f, a.q + b.q);
+        ab.along(&mut sum.f, a.u - b.u, a.pair + b.pair);
+    }
+}
+
+impl<M: PairShear, const D: usize> Stress<D> for HourglassFree<M> {
+    type Material = M;
+
+    #[inline(always)]
+    fn solid(&self) -> &Solid<M> {
+        &self.solid
+    }
+
+    /// Q = [volumetric - s ratio] F^-T + tau_d F^-T + s 1, and s.
+    #[inline(always)]
+    fn hand_over<S: Real>(&self, f: Tensor<S, D>, damping: Tensor<S, D>, _: Tensor<S, D>) -> (Tensor<S, D>, S) {
+        let split = self.solid.material.split(f, self.zeta);
+        let reduced = damping.plus_diagonal(split.volumetric - split.pair * split.ratio);
+        (reduced.mul(f.inverse().transpose()).plus_diagonal(split.pair), split.pair)
+    }
+}
+
+impl<M: PairShear, const D: usize> Formulation<D> for HourglassFree<M> {
+    const FIELDS: &'static [Quantity] = FIELDS;
+
+    fn relisted(&self, run: &mut impl Run<D>) {
+        run.pairs(&MomentSum, &Invert, Now { t: 0.0, dt: 0.0 });
+    }
+
+    fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
+        run.pairs(&Momentum, &Kick { density: self.solid.material.moduli().density }, now);
+    }
+
+    fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
+        run.pairs(&Rate, &Stretch(self), now);
+    }
+
+    fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
+        self.solid.state(run, place, ahead)
+    }
+}

@@ -1,0 +1,86 @@
+//! Total Lagrangian formulations: the kernel is evaluated once, in the reference configuration.
+
+mod hourglass_free;
+mod motion;
+mod nested;
+mod reference;
+
+pub use hourglass_free::HourglassFree;
+pub use motion::Stress;
+pub use nested::Nested;
+pub(crate) use reference::inverse_or_unit;
+
+use super::State;
+use crate::field::Quantity;
+use crate::material::{Hyperelastic, Moduli};
+use crate::math::{Real, Tensor};
+use crate::run::Run;
+
+/// Fields of every total Lagrangian body.
+pub(crate) const FIELDS: &[Quantity] = &[
+    Quantity::ReferencePosition,
+    Quantity::Displacement,
+    Quantity::Velocity,
+    Quantity::Acceleration,
+    Quantity::BodyForce,
+    Quantity::Free,
+    Quantity::PrescribedVelocity,
+    Quantity::Mass,
+    Quantity::Volume,
+    Quantity::Body,
+    Quantity::Correction,
+    Quantity::DeformationGradient,
+    Quantity::DeformationRate,
+    Quantity::NominalStress,
+    Quantity::PairStiffness,
+    Quantity::WaveSpeedSquared,
+    Quantity::Dissipated,
+    Quantity::ExternalWork,
+];
+
+/// A solid: a material and its Kelvin-Voigt damper.
+#[derive(Clone, Copy, Debug)]
+pub struct Solid<M> {
+    /// The material.
+    pub material: M,
+    /// gamma = rho0 c h / 2 with c = sqrt(K/rho0), Pa s (TL Eq. 23).
+    pub gamma: f64,
+}
+
+impl<M: Hyperelastic> Solid<M> {
+    /// The solid with the damping of the paper, for smoothing length `h`.
+    #[must_use]
+    pub fn new(material: M, h: f64) -> Self {
+        let Moduli { density, .. } = material.moduli();
+        Self { material, gamma: 0.5 * density * material.moduli().sound_speed() * h }
+    }
+
+    /// The same without damping.
+    #[must_use]
+    pub fn undamped(self) -> Self {
+        Self { gamma: 0.0, ..self }
+    }
+
+    /// Damping stress tau_d = (gamma/2) (dF F^T + F dF^T) (TL Eqs. 23, 24).
+    #[inline(always)]
+    pub fn damping<S: Real, const D: usize>(&self, f: Tensor<S, D>, rate: Tensor<S, D>) -> Tensor<S, D> {
+        rate.mul(f.transpose()).symmetric().times(S::of(self.gamma))
+    }
+
+    /// State of a stored particle.
+    pub(crate) fn state<const D: usize>(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
+        let p = run.particles();
+        let word = |field, k| p.column(field, k)[place];
+        let f: Tensor<f64, D> = Tensor::from_fn(|i, j| {
+            let k = i * D + j;
+            word(Quantity::DeformationGradient, k) - ahead * word(Quantity::DeformationRate, k)
+        });
+        let j = f.det();
+        State {
+            deformation: Some(f.lift(1.0)),
+            density: self.material.moduli().density / j,
+            cauchy: self.material.kirchhoff(f).times(1.0 / j),
+            strain_energy: self.material.energy(f) * word(Quantity::Volume, 0),
+        }
+    }
+}

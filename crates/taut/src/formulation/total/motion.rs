@@ -1,0 +1,118 @@
+//! The passes that all total Lagrangian formulations share: velocity, deformation and stress.
+
+use super::Solid;
+use crate::field::Of;
+use crate::formulation::kick::Mover;
+use crate::material::Hyperelastic;
+use crate::math::{Real, Tensor};
+use crate::pass::{Now, Pair, PairSum, Update};
+
+record! {
+    /// Force per reference volume.
+    Force { f: ForceDensity }
+    /// A particle about to be accelerated.
+    Inert { v: Velocity, m: Mass, b: BodyForce, free: Free, given: PrescribedVelocity, work: ExternalWork }
+    /// A particle accelerated.
+    Moved { v: Velocity, a: Acceleration, work: ExternalWork }
+    /// What the rate of deformation is made of.
+    Flow { v: Velocity }
+    /// The uncorrected gradient of velocity.
+    Gradient { l: VelocityGradient }
+    /// A particle about to be deformed.
+    Formed {
+        u: Displacement, v: Velocity, f: DeformationGradient, correction: Correction, volume: Volume,
+        dissipated: Dissipated,
+    }
+    /// A particle deformed.
+    Deformed {
+        u: Displacement, f: DeformationGradient, rate: DeformationRate, q: NominalStress, pair: PairStiffness,
+        c2: WaveSpeedSquared, dissipated: Dissipated,
+    }
+}
+
+/// v += dt (f / rho0 + b), then constraints (TL Eq. 31).
+pub struct Kick {
+    /// Density at rest, kg/m^3.
+    pub density: f64,
+}
+
+impl<const D: usize> Update<D> for Kick {
+    type Sum = Force<f64, D>;
+    type Reads = Inert<f64, D>;
+    type Writes = Moved<f64, D>;
+
+    #[inline(always)]
+    fn at<S: Real>(&self, sum: &Force<S, D>, a: &Inert<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
+        let mover = Mover { v: a.v, m: a.m, b: a.b, free: a.free, given: a.given };
+        let kicked = mover.kick(sum.f.times(S::of(1.0 / self.density)), now);
+        Moved { v: kicked.v, a: kicked.a, work: a.work + kicked.external_work }
+    }
+}
+
+/// sum_b (v_b - v_a) (x) grad W V_b (TL Eq. 22 without B).
+pub struct Rate;
+
+impl<const D: usize> PairSum<D> for Rate {
+    type Reads = Flow<f64, D>;
+    type Adds = Gradient<f64, D>;
+
+    #[inline(always)]
+    fn add<S: Real, const M: u8>(
+        &self,
+        sum: &mut Gradient<S, D>,
+        (a, b): (&Flow<S, D>, &Flow<S, D>),
+        ab: &Pair<S, D, M>,
+        _: &Now<S>,
+    ) {
+        ab.outer(&mut sum.l, b.v - a.v);
+    }
+}
+
+/// What a formulation makes of the deformation of a particle.
+pub trait Stress<const D: usize>: Send + Sync {
+    /// The material and its damper.
+    type Material: Hyperelastic;
+    /// The solid.
+    fn solid(&self) -> &Solid<Self::Material>;
+    /// Stress handed to neighbours, and stiffness of the pair force, from F, damping stress and B.
+    fn hand_over<S: Real>(
+        &self,
+        f: Tensor<S, D>,
+        damping: Tensor<S, D>,
+        correction: Tensor<S, D>,
+    ) -> (Tensor<S, D>, S);
+}
+
+/// dF = L B; F += dt dF; u += dt v; then stress, wave speed and dissipation. `now.dt` is the mean of two steps: the end of
+/// one and the beginning of the next, fused (TL Eqs. 22, 30, 32).
+pub struct Stretch<'a, F>(pub &'a F);
+
+impl<F: Stress<D>, const D: usize> Update<D> for Stretch<'_, F> {
+    type Sum = Gradient<f64, D>;
+    type Reads = Formed<f64, D>;
+    type Writes = Deformed<f64, D>;
+
+    #[inline(always)]
+    fn at<S: Real>(&self, sum: &Gradient<S, D>, a: &Formed<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
+        let solid = self.0.solid();
+        let rate = sum.l.mul(a.correction);
+        let f = a.f.plus(now.dt, rate);
+        let damping = solid.damping(f, rate);
+        let (q, pair) = self.0.hand_over(f, damping, a.correction);
+        let inverse = f.inverse();
+        // Power of the damper, tau_d F^-T : dF, per reference volume.
+        let power = damping.mul(inverse.transpose()).double_dot(rate);
+        let c2 = solid.material.stiffness(f) * S::of(1.0 / solid.material.moduli().density);
+        // An inverted particle has no wave speed: infinite, so that the step sees it at once.
+        let sound = S::zero().lt(f.det());
+        Deformed {
+            u: a.u.plus(now.dt, a.v),
+            f,
+            rate,
+            q,
+            pair,
+            c2: S::select(sound, c2, S::of(f64::INFINITY)),
+            dissipated: (a.volume * now.dt).mul_add(power, a.dissipated),
+        }
+    }
+}

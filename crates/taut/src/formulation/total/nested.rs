@@ -1,0 +1,92 @@
+//! The nested formulation, `tl-nested` (TL section 3.2): stress from a gradient, force from the gradient of stress.
+
+use super::motion::{Force, Kick, Rate, Stress, Stretch};
+use super::reference::{Invert, MomentSum};
+use super::{FIELDS, Solid};
+use crate::field::Quantity;
+use crate::formulation::{Formulation, State};
+use crate::material::Hyperelastic;
+use crate::math::{Real, Tensor};
+use crate::pass::{Now, Pair, PairSum};
+use crate::run::Run;
+
+/// rho0 a = sum_b (P_a B_a + P_b B_b) grad W V_b with P = tau F^-T (TL Eq. 20; B is symmetric). Blind to zig-zag modes.
+#[derive(Clone, Copy, Debug)]
+pub struct Nested<M> {
+    /// Material and damper.
+    pub solid: Solid<M>,
+}
+
+impl<M: Hyperelastic> Nested<M> {
+    /// With the paper's damping, for smoothing length `h`.
+    #[must_use]
+    pub fn new(material: M, h: f64) -> Self {
+        Self { solid: Solid::new(material, h) }
+    }
+}
+
+record! {
+    /// What a pair force needs.
+    Stressed { q: NominalStress }
+}
+
+/// The force sum.
+struct Momentum;
+
+impl<const D: usize> PairSum<D> for Momentum {
+    type Reads = Stressed<f64, D>;
+    type Adds = Force<f64, D>;
+
+    #[inline(always)]
+    fn add<S: Real, const M: u8>(
+        &self,
+        sum: &mut Force<S, D>,
+        (a, b): (&Stressed<S, D>, &Stressed<S, D>),
+        ab: &Pair<S, D, M>,
+        _: &Now<S>,
+    ) {
+        ab.dot(&mut sum.f, a.q + b.q);
+    }
+}
+
+impl<M: Hyperelastic, const D: usize> Stress<D> for Nested<M> {
+    type Material = M;
+
+    #[inline(always)]
+    fn solid(&self) -> &Solid<M> {
+        &self.solid
+    }
+
+    /// Q = (tau + tau_d) F^-T B.
+    #[inline(always)]
+    fn hand_over<S: Real>(
+        &self,
+        f: Tensor<S, D>,
+        damping: Tensor<S, D>,
+        correction: Tensor<S, D>,
+    ) -> (Tensor<S, D>, S) {
+        let tau = self.solid.material.kirchhoff(f);
+        let in_plane: Tensor<S, D> = Tensor::from_fn(|i, j| tau[i][j] + damping[i][j]);
+        (in_plane.mul(f.inverse().transpose()).mul(correction), S::zero())
+    }
+}
+
+impl<M: Hyperelastic, const D: usize> Formulation<D> for Nested<M> {
+    const FIELDS: &'static [Quantity] = FIELDS;
+
+    fn relisted(&self, run: &mut impl Run<D>) {
+        run.pairs(&MomentSum, &Invert, Now { t: 0.0, dt: 0.0 });
+    }
+
+    fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
+        run.pairs(&Momentum, &Kick { density: self.solid.material.moduli().density }, now);
+    }
+
+    fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
+        run.pairs(&Rate, &Stretch(self), now);
+    }
+
+    fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
+        self.solid.state(run, place, ahead)
+    }
+}

@@ -1,0 +1,56 @@
+//! The correction matrix, computed once from the reference configuration.
+
+use crate::field::Of;
+use crate::math::{Real, Tensor};
+use crate::pass::{Now, Pair, PairSum, Update};
+
+record! {
+    /// A reference point.
+    Anchor { x: ReferencePosition }
+    /// The matrix to invert.
+    Moment { m: MomentMatrix }
+    /// The inverse.
+    Corrected { b: Correction }
+}
+
+/// M_a = sum_b (X_b - X_a) (x) grad W V_b, whose inverse is B (TL Eq. 21). It is positive definite and symmetric.
+pub struct MomentSum;
+
+impl<const D: usize> PairSum<D> for MomentSum {
+    type Reads = Anchor<f64, D>;
+    type Adds = Moment<f64, D>;
+
+    #[inline(always)]
+    fn add<S: Real, const M: u8>(
+        &self,
+        sum: &mut Moment<S, D>,
+        (a, b): (&Anchor<S, D>, &Anchor<S, D>),
+        ab: &Pair<S, D, M>,
+        _: &Now<S>,
+    ) {
+        ab.outer(&mut sum.m, b.x - a.x);
+    }
+}
+
+/// B = M^-1; where M is singular (a particle alone, or all neighbours in one line) B is the unit tensor.
+pub struct Invert;
+
+impl<const D: usize> Update<D> for Invert {
+    type Sum = Moment<f64, D>;
+    type Reads = ();
+    type Writes = Corrected<f64, D>;
+
+    #[inline(always)]
+    fn at<S: Real>(&self, sum: &Moment<S, D>, (): &(), _: &Now<S>) -> Of<Self::Writes, S, D> {
+        Corrected { b: inverse_or_unit(sum.m) }
+    }
+}
+
+/// The inverse of a moment matrix, or the unit tensor where its determinant is below 1e-6 of what a full
+/// neighbourhood has (1).
+#[inline(always)]
+pub fn inverse_or_unit<S: Real, const D: usize>(m: Tensor<S, D>) -> Tensor<S, D> {
+    let regular = S::of(1e-6).lt(m.det().abs());
+    let inverse = m.inverse();
+    Tensor::from_fn(|i, j| S::select(regular, inverse[i][j], S::of(f64::from(u8::from(i == j)))))
+}

@@ -1,0 +1,118 @@
+//! Updated Lagrangian formulations: the kernel follows the particles. One set of particles holds all bodies; they
+//! touch through the pressure and dissipation of ordinary pairs, shear acts only inside a body.
+
+mod kick;
+mod motion;
+mod nested;
+mod non_hourglass;
+mod pressure;
+
+pub use nested::Nested;
+pub use non_hourglass::NonHourglass;
+
+use super::State;
+use crate::field::Quantity;
+use crate::material::Plane;
+use crate::math::{Real, Tensor, Vector};
+use crate::pass::Now;
+use crate::run::Run;
+
+/// Fields of every updated Lagrangian set.
+pub(crate) const FIELDS: &[Quantity] = &[
+    Quantity::ReferencePosition,
+    Quantity::Position,
+    Quantity::Velocity,
+    Quantity::Acceleration,
+    Quantity::BodyForce,
+    Quantity::Free,
+    Quantity::PrescribedVelocity,
+    Quantity::Mass,
+    Quantity::Volume,
+    Quantity::Body,
+    Quantity::Density,
+    Quantity::RestDensity,
+    Quantity::DensityRate,
+    Quantity::Pressure,
+    Quantity::SoundSpeed,
+    Quantity::ShearModulus,
+    Quantity::Correction,
+    Quantity::ShearAcceleration,
+    Quantity::ShearStress,
+    Quantity::ShearStressRate,
+    Quantity::AxialShearStress,
+    Quantity::AxialShearStressRate,
+    Quantity::Dissipated,
+    Quantity::ShearWork,
+    Quantity::ExternalWork,
+];
+
+/// The shear stress of a linear elastic solid.
+#[derive(Clone, Copy, Debug)]
+pub struct Hypoelastic {
+    /// The meaning of 2D.
+    pub plane: Plane,
+}
+
+/// Rate of the shear stress.
+#[derive(Clone, Copy, Debug)]
+pub struct ShearRate<S, const D: usize> {
+    /// In the plane.
+    pub s: Tensor<S, D>,
+    /// On the third axis (2D).
+    pub axial: S,
+}
+
+impl Hypoelastic {
+    /// ds/dt = 2G dev(sym L) + w.s - s.w with the spin w = antisym L (UL Eqs. 7, 8 with the Jaumann terms, which Eq. 7
+    /// leaves out). The deviator takes 1/d of the trace with d = 2 in the papers' plane, else 1/3.
+    #[inline(always)]
+    pub fn rate<S: Real, const D: usize>(
+        &self,
+        gradient: Tensor<S, D>,
+        s: Tensor<S, D>,
+        shear: S,
+    ) -> ShearRate<S, D> {
+        let d = self.plane.d(D);
+        let (strain, spin) = (gradient.symmetric(), gradient.antisymmetric());
+        let mean = strain.trace() * S::of(-1.0 / d);
+        let twice = shear + shear;
+        let s = strain.plus_diagonal(mean).times(twice) + spin.mul(s) - s.mul(spin);
+        // In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
+        ShearRate { s, axial: if d == 2.0 { S::zero() } else { twice * mean } }
+    }
+}
+
+/// 1 for two particles of the same body, else 0.
+#[inline(always)]
+pub(crate) fn same_body<S: Real>(a: S, b: S) -> S {
+    S::select((a - b).abs().lt(S::of(0.5)), S::one(), S::zero())
+}
+
+/// State of a stored particle; `shear_energy` is what the shear forces have stored in it, J.
+pub(crate) fn state<const D: usize>(run: &impl Run<D>, place: usize, shear_energy: f64) -> State {
+    let p = run.particles();
+    let word = |field, k| p.column(field, k)[place];
+    let s = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j));
+    let (density, rest) = (word(Quantity::Density, 0), word(Quantity::RestDensity, 0));
+    let c2 = word(Quantity::SoundSpeed, 0).powi(2);
+    let pressure = c2 * (density - rest);
+    let ratio = density / rest;
+    State {
+        deformation: None,
+        density,
+        cauchy: s.lift(word(Quantity::AxialShearStress, 0)).plus_diagonal(-pressure),
+        strain_energy: word(Quantity::Mass, 0) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,
+    }
+}
+
+/// V = m / rho of every particle, for the next list.
+pub(crate) fn refresh_volumes<const D: usize>(run: &mut impl Run<D>) {
+    run.each(&motion::Refresh, Now { t: 0.0, dt: 0.0 });
+}
+
+/// Current positions less reference positions.
+#[must_use]
+pub fn displacement<const D: usize>(run: &impl Run<D>, place: usize) -> Vector<f64, D> {
+    let p = run.particles();
+    p.vector_at(Quantity::Position, place) - p.vector_at(Quantity::ReferencePosition, place)
+}

@@ -1,0 +1,168 @@
+//! What bounds a time step, and how a run that left its bounds is recognised.
+
+use crate::field::{Of, Quantity};
+use crate::math::Real;
+use crate::particles::Particles;
+use crate::pass::{Fold, Reduce};
+use crate::run::Run;
+
+record! {
+    /// Motion of a particle.
+    Motion { v: Velocity, a: Acceleration }
+    /// Motion and wave speed of a particle.
+    Waves { v: Velocity, a: Acceleration, c2: WaveSpeedSquared }
+}
+
+/// Largest speed, acceleration and wave speed of all particles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Largest speed, m/s.
+    pub speed: f64,
+    /// Largest acceleration, m/s^2.
+    pub acceleration: f64,
+    /// Largest wave speed in the metric of the list, m/s (0 where the formulation has none).
+    pub wave_speed: f64,
+    /// Whether every velocity and acceleration is a number and no particle is inverted.
+    pub finite: bool,
+}
+
+/// Without wave speed.
+struct MotionLimits;
+/// With wave speed.
+struct WaveLimits;
+
+impl<const D: usize> Reduce<D, 3> for MotionLimits {
+    type Reads = Motion<f64, D>;
+    // The sum sees what a maximum may lose: every NaN ends up in it.
+    const FOLDS: [Fold; 3] = [Fold::Max, Fold::Max, Fold::Sum];
+
+    #[inline(always)]
+    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 3] {
+        let (v, a) = (p.v.norm_squared(), p.a.norm_squared());
+        [v, a, v + a]
+    }
+}
+
+impl<const D: usize> Reduce<D, 4> for WaveLimits {
+    type Reads = Waves<f64, D>;
+    const FOLDS: [Fold; 4] = [Fold::Max, Fold::Max, Fold::Max, Fold::Sum];
+
+    #[inline(always)]
+    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 4] {
+        let (v, a) = (p.v.norm_squared(), p.a.norm_squared());
+        [v, a, p.c2, v + a + p.c2]
+    }
+}
+
+impl Limits {
+    /// Of particles that carry a wave speed.
+    pub fn with_waves<const D: usize>(run: &mut impl Run<D>) -> Self {
+        let [v, a, c, sum] = run.reduce(&WaveLimits);
+        Self::new(v, a, c, sum)
+    }
+
+    /// Of particles that do not.
+    pub fn of_motion<const D: usize>(run: &mut impl Run<D>) -> Self {
+        let [v, a, sum] = run.reduce(&MotionLimits);
+        Self::new(v, a, 0.0, sum)
+    }
+
+    fn new(v: f64, a: f64, c: f64, sum: f64) -> Self {
+        Self {
+            speed: v.max(0.0).sqrt(),
+            acceleration: a.max(0.0).sqrt(),
+            wave_speed: c.max(0.0).sqrt(),
+            finite: sum.is_finite(),
+        }
+    }
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The deformation gradient of a particle has no positive determinant.
+    Inverted,
+    /// A number that is not finite.
+    NotFinite,
+    /// The density left the range from a tenth to ten times its value at rest.
+    Density,
+    /// A speed above ten wave speeds.
+    Speed,
+}
+
+impl Cause {
+    /// What it probably comes from and what to try.
+    #[must_use]
+    pub const fn hint(self) -> &'static str {
+        match self {
+            Self::Inverted => {
+                "a particle turned inside out: the time step is too long for this stretch (try [time] step = \"stretch\" or a \
+                 smaller cfl), or the load is beyond what this resolution can carry"
+            }
+            Self::NotFinite => {
+                "the step became unstable: try a smaller [time] cfl; with a nested formulation, the disorder of \
+                 zero-energy modes ends like this too"
+            }
+            Self::Density => {
+                "particles were pressed together or torn apart: with ul-nested this is tensile instability, \
+                 otherwise try a smaller [time] cfl or a slower impact"
+            }
+            Self::Speed => "energy appeared from nowhere: the time step is too long; try a smaller [time] cfl",
+        }
+    }
+}
+
+/// A run that had to stop.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "diverged at t = {time:.6e} s (step {step}): {field} of particle {particle} (body {body}, at {position:?} m) is {value}; \
+     likely cause: {}",
+    cause.hint()
+)]
+pub struct Diverged {
+    /// Stable id of the particle, as in the files.
+    pub particle: u32,
+    /// Index of its body.
+    pub body: usize,
+    /// Its reference position, m.
+    pub position: [f64; 3],
+    /// Name of the field that went wrong first.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Number of the step.
+    pub step: u64,
+    /// What happened.
+    pub cause: Cause,
+}
+
+/// Finds the first particle (by id) with something wrong in one of the fields; `None` if all is well.
+pub(crate) fn culprit<const D: usize>(
+    p: &Particles<D>,
+    checks: &[(Quantity, Cause, &dyn Fn(usize, f64) -> bool)],
+) -> Option<Diverged> {
+    for &(field, cause, wrong) in checks {
+        let words = field.rank().words(D);
+        let found = (0..p.len())
+            .flat_map(|a| (0..words).map(move |w| (a, w)))
+            .map(|(a, w)| (a, p.column(field, w)[a]))
+            .filter(|&(a, value)| wrong(a, value))
+            .min_by_key(|&(a, _)| p.ids()[a]);
+        if let Some((place, value)) = found {
+            let x = p.vector_at(Quantity::ReferencePosition, place);
+            return Some(Diverged {
+                particle: p.ids()[place],
+                body: p.column(Quantity::Body, 0)[place] as usize,
+                position: std::array::from_fn(|i| if i < D { x[i] } else { 0.0 }),
+                field: field.name(),
+                value,
+                time: 0.0,
+                step: 0,
+                cause,
+            });
+        }
+    }
+    None
+}

@@ -1,0 +1,9 @@
+//! Time integration: position Verlet for both families, and the time steps they may take.
+
+mod limits;
+mod total;
+mod updated;
+
+pub use limits::{Cause, Diverged, Limits};
+pub use total::{Total, TotalOptions, WaveSpeed};
+pub use updated::{Stepping, Updated, UpdatedOptions};

@@ -1,0 +1,290 @@
+//! Particles sorted into cells.
+//!
+//! A cell is a little wider than the search radius, so all that is near a point lies in the 3^D cells around it.
+//! The grid is folded: cell `c` of an axis is stored in row `c mod rows`. Where the particles' extent asks for
+//! no more rows than there are, folding changes nothing; where it asks for too many (one particle flung far
+//! away), distant cells share a place and the distance test tells them apart. Memory is thus bounded by the
+//! number of particles, never by where they are. At least three rows per axis keep the three cells around a
+//! point apart.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::error::{self, SearchError};
+
+/// Cells wider than the radius by this share, so that the rounding of a cell number cannot move two particles
+/// within the radius more than one cell apart.
+const MARGIN: f64 = 1e-4;
+/// Cells along the extent at most: cell numbers are then rounded by less than 3 * 2^-53 * 2^36 < 0.3 MARGIN.
+const FINEST: f64 = (1_u64 << 36) as f64;
+/// Cells per particle at most,
+const CELLS_PER_PARTICLE: usize = 4;
+/// but so many are always granted.
+const FEW_CELLS: usize = 1 << 10;
+/// Particles handed to a thread at a time.
+const CHUNK: usize = 1 << 14;
+
+/// Particles binned into cells of the search radius; the buffers are reused from one build to the next.
+///
+/// A particle's place in the sorted order is its slot. Within a cell, slots ascend with the particle.
+#[derive(Debug, Clone)]
+pub struct CellGrid<const D: usize> {
+    radius: f64,
+    origin: [f64; D],
+    cells_per_metre: f64,
+    rows: [usize; D],
+    cell: Vec<u32>,
+    start: Vec<u32>,
+    id: Vec<u32>,
+    x: [Vec<f64>; D],
+}
+
+/// Ranges of slots that together hold every particle within the radius of a point, and others further away.
+#[derive(Debug, Clone)]
+pub struct Near {
+    ranges: [(u32, u32); 18],
+    len: usize,
+}
+
+impl<const D: usize> CellGrid<D> {
+    /// An empty grid.
+    pub fn new() -> Self {
+        const { assert!(D >= 1 && D <= 3, "a grid has one, two or three axes") };
+        Self {
+            radius: 1.0,
+            origin: [0.0; D],
+            cells_per_metre: 1.0,
+            rows: [3; D],
+            cell: Vec::new(),
+            start: vec![0; 3_usize.pow(D as u32) + 2],
+            id: Vec::new(),
+            x: std::array::from_fn(|_| Vec::new()),
+        }
+    }
+
+    /// Sorts the particles at `x` (columns, m) into cells for searches up to `radius` (m).
+    ///
+    /// # Errors
+    /// A coordinate or radius that is not a usable number, columns of unequal length, 2^32 particles or more.
+    /// The grid then keeps what it held.
+    pub fn build(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
+        let n = error::particles(x)?;
+        error::radius(radius)?;
+        error::check_positions(x)?;
+        self.shape(x, radius);
+        self.assign(x, n);
+        self.sort(x, n);
+        Ok(())
+    }
+
+    /// The radius the grid was built for, in m.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Number of cells that are stored.
+    pub fn cells(&self) -> usize {
+        self.rows.iter().product()
+    }
+
+    /// The particle in each slot.
+    pub fn ids(&self) -> &[u32] {
+        &self.id
+    }
+
+    /// The position in each slot, as columns in m.
+    pub fn positions(&self) -> [&[f64]; D] {
+        std::array::from_fn(|axis| self.x[axis].as_slice())
+    }
+
+    /// Slots that may lie within the radius of `point` (m); each slot at most once, always in the same order.
+    pub fn near(&self, point: [f64; D]) -> Near {
+        let place = self.place(point);
+        let mut near = Near { ranges: [(0, 0); 18], len: 0 };
+        for turn in 0..3_usize.pow(D as u32 - 1) {
+            let mut digits = turn;
+            let mut line = 0;
+            for axis in 0..D - 1 {
+                line = line * self.rows[axis] + shift(place[axis], digits % 3, self.rows[axis]);
+                digits /= 3;
+            }
+            self.line(line * self.rows[D - 1], place[D - 1], &mut near);
+        }
+        near
+    }
+
+    /// Adds the three cells around `middle` on the line of cells that starts at `first`.
+    fn line(&self, first: usize, middle: usize, near: &mut Near) {
+        let last = self.rows[D - 1] - 1;
+        let mut add =
+            |from: usize, to: usize| near.push(self.start[first + from], self.start[first + to + 1]);
+        if middle == 0 {
+            add(0, 1);
+            add(last, last);
+        } else if middle == last {
+            add(0, 0);
+            add(last - 1, last);
+        } else {
+            add(middle - 1, middle + 1);
+        }
+    }
+
+    /// Chooses origin, cell size and the number of rows per axis.
+    fn shape(&mut self, x: [&[f64]; D], radius: f64) {
+        let mut extent = [0.0; D];
+        for axis in 0..D {
+            let low = x[axis].iter().copied().fold(f64::INFINITY, f64::min);
+            let high = x[axis].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            self.origin[axis] = if low.is_finite() { low } else { 0.0 };
+            extent[axis] = (high - low).max(0.0);
+        }
+        let longest = extent.iter().copied().fold(0.0, f64::max);
+        let size = (radius * (1.0 + MARGIN)).max(longest / FINEST);
+        self.radius = radius;
+        self.cells_per_metre = 1.0 / size;
+        let most = (CELLS_PER_PARTICLE * x[0].len()).clamp(FEW_CELLS, 1 << 31);
+        self.rows = fold(extent.map(|length| (length / size) as usize + 1), most);
+    }
+
+    /// Finds the cell of every particle.
+    fn assign(&mut self, x: [&[f64]; D], n: usize) {
+        let mut cell = std::mem::take(&mut self.cell);
+        cell.resize(n, 0);
+        cell.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
+            for (offset, cell) in chunk.iter_mut().enumerate() {
+                let place = self.place(x.map(|column| column[k * CHUNK + offset]));
+                *cell = (0..D).fold(0, |line, axis| line * self.rows[axis] + place[axis]) as u32;
+            }
+        });
+        self.cell = cell;
+    }
+
+    /// Counting sort by cell. Counts stand two places ahead, so that each entry of `start`, advanced by one per
+    /// particle placed, ends up as the start of the cell it belongs to.
+    fn sort(&mut self, x: [&[f64]; D], n: usize) {
+        self.start.clear();
+        self.start.resize(self.cells() + 2, 0);
+        for &cell in &self.cell {
+            self.start[cell as usize + 2] += 1;
+        }
+        let mut sum = 0;
+        for count in &mut self.start {
+            sum += *count;
+            *count = sum;
+        }
+        self.id.resize(n, 0);
+        for (a, &cell) in self.cell.iter().enumerate() {
+            let next = &mut self.start[cell as usize + 1];
+            self.id[*next as usize] = a as u32;
+            *next += 1;
+        }
+        for (sorted, column) in self.x.iter_mut().zip(x) {
+            sorted.clear();
+            sorted.extend(self.id.iter().map(|&a| column[a as usize]));
+        }
+    }
+
+    /// Row of a point along each axis, folded.
+    fn place(&self, point: [f64; D]) -> [usize; D] {
+        std::array::from_fn(|axis| {
+            let cell = ((point[axis] - self.origin[axis]) * self.cells_per_metre).floor() as i64;
+            let rows = self.rows[axis] as i64;
+            let folded = if (0..rows).contains(&cell) { cell } else { cell.rem_euclid(rows) };
+            folded as usize
+        })
+    }
+}
+
+impl<const D: usize> Default for CellGrid<D> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Near {
+    /// The ranges of slots.
+    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.ranges[..self.len].iter().map(|&(from, to)| from as usize..to as usize)
+    }
+
+    /// Number of slots in all ranges.
+    pub fn candidates(&self) -> usize {
+        self.ranges().map(|range| range.len()).sum()
+    }
+
+    fn push(&mut self, from: u32, to: u32) {
+        if from < to {
+            self.ranges[self.len] = (from, to);
+            self.len += 1;
+        }
+    }
+}
+
+/// The row `step - 1` further than `row`, of `rows` rows in a circle; `step` is 0, 1 or 2.
+fn shift(row: usize, step: usize, rows: usize) -> usize {
+    let moved = row + step + rows - 1;
+    if moved >= 2 * rows {
+        moved - 2 * rows
+    } else if moved >= rows {
+        moved - rows
+    } else {
+        moved
+    }
+}
+
+/// Number of rows to store per axis where the extent asks for `wanted`: at least 3, in all about `most` or less.
+fn fold<const D: usize>(wanted: [usize; D], most: usize) -> [usize; D] {
+    let mut rows = wanted.map(|count| count.clamp(3, most.max(3)));
+    while rows.iter().map(|&count| count as f64).product::<f64>() > most as f64 {
+        let longest = (0..D).fold(0, |best, axis| if rows[axis] > rows[best] { axis } else { best });
+        if rows[longest] == 3 {
+            break;
+        }
+        rows[longest] = (rows[longest] / 2).max(3);
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slots_hold_every_particle_once_and_ascend_within_a_cell() {
+        let x = [[0.5, 3.5, 0.6, 9.0, 0.4].as_slice(), &[0.0; 5]];
+        let mut grid = CellGrid::new();
+        grid.build(x, 1.0).unwrap();
+        assert_eq!(grid.ids(), [0, 2, 4, 1, 3]);
+        assert_eq!(grid.positions()[0], [0.5, 0.6, 0.4, 3.5, 9.0]);
+    }
+
+    #[test]
+    fn memory_is_bounded_by_the_number_of_particles() {
+        let n = 1000;
+        let mut x: Vec<f64> = (0..n).map(f64::from).collect();
+        x[7] = 1e140;
+        x[8] = -1e9;
+        let mut grid = CellGrid::new();
+        grid.build([&x, &x, &x], 1.0).unwrap();
+        assert!(grid.cells() <= CELLS_PER_PARTICLE * n as usize, "{} cells", grid.cells());
+    }
+
+    #[test]
+    fn three_rows_at_least_and_halving_the_longest() {
+        assert_eq!(fold([1, 1], 4), [3, 3]);
+        assert_eq!(fold([1000, 20, 20], 340_000), [500, 20, 20]);
+    }
+
+    #[test]
+    fn refuses_what_is_not_a_number() {
+        let mut grid = CellGrid::new();
+        let column = [0.0, 1.0, f64::NAN];
+        let error = grid.build([&[0.0; 3], &column], 1.0).unwrap_err();
+        assert!(matches!(error, SearchError::Position { particle: 2, axis: 1, .. }), "{error}");
+        assert!(matches!(grid.build([&[f64::INFINITY]; 2], 1.0), Err(SearchError::Position { .. })));
+        assert_eq!(grid.build([&[0.0]; 2], 0.0), Err(SearchError::Radius(0.0)));
+        assert!(matches!(grid.build([&[0.0]; 2], f64::NAN), Err(SearchError::Radius(_))));
+        assert!(matches!(grid.build([&[0.0], &[]], 1.0), Err(SearchError::Length { found: 0, .. })));
+    }
+}

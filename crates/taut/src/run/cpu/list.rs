@@ -1,0 +1,116 @@
+//! The pair list in the shape that lanes want: the neighbours of a particle in blocks of four.
+
+use super::CHUNK;
+use crate::kernel::Kernel;
+use crate::math::{Lanes, Vector};
+use crate::neighbours::Adjacency;
+use crate::pass::{ALL_WEIGHTS, Pair};
+
+/// Blocks of four neighbours. Of each pair are stored the unit vector e, the slope W' V_b, and W' V_b / r: D + 2
+/// numbers, each four times in a row. The last block of a particle is filled up with the particle itself and zeros.
+#[derive(Debug)]
+pub struct PairBlocks<const D: usize> {
+    start: Vec<u32>,
+    ids: Vec<[u32; 4]>,
+    weights: Vec<f64>,
+}
+
+impl<const D: usize> Default for PairBlocks<D> {
+    fn default() -> Self {
+        Self { start: Vec::new(), ids: Vec::new(), weights: Vec::new() }
+    }
+}
+
+impl<const D: usize> PairBlocks<D> {
+    /// Numbers of a block.
+    const WORDS: usize = 4 * (D + 2);
+
+    /// Fills the blocks. Buffers grow geometrically and are kept.
+    pub fn build(&mut self, list: &Adjacency, x: [&[f64]; D], volume: &[f64], kernel: &Kernel) {
+        let len = volume.len();
+        self.start.clear();
+        self.start.push(0);
+        let mut blocks = 0;
+        for a in 0..len {
+            blocks += list.of(a).len().div_ceil(4) as u32;
+            self.start.push(blocks);
+        }
+        self.ids.resize(blocks as usize, [0; 4]);
+        self.weights.resize(blocks as usize * Self::WORDS, 0.0);
+        let fill = Fill { list, x, volume, kernel, start: &self.start };
+        fill.all(0, len, &mut self.ids, &mut self.weights);
+    }
+
+    /// The blocks of particle `a`.
+    #[inline(always)]
+    pub fn of(&self, a: usize) -> std::ops::Range<usize> {
+        self.start[a] as usize..self.start[a + 1] as usize
+    }
+
+    /// The four neighbours of a block.
+    #[inline(always)]
+    pub fn ids(&self, block: usize) -> [u32; 4] {
+        self.ids[block]
+    }
+
+    /// The four pairs of a block.
+    #[inline(always)]
+    pub fn pair<V: Lanes>(&self, block: usize) -> Pair<V, D, ALL_WEIGHTS> {
+        let words = &self.weights[block * Self::WORDS..(block + 1) * Self::WORDS];
+        // SAFETY: `words` holds D + 2 times four numbers.
+        let word = |k: usize| unsafe { V::load(words.as_ptr().add(4 * k)) };
+        let mut e = Vector::zero();
+        for i in 0..D {
+            e.0[i] = word(i);
+        }
+        Pair { grad_w: e.times(word(D)), w: word(D + 1), e }
+    }
+}
+
+/// What is needed to fill the blocks of a range of particles.
+struct Fill<'a, const D: usize> {
+    list: &'a Adjacency,
+    x: [&'a [f64]; D],
+    volume: &'a [f64],
+    kernel: &'a Kernel,
+    start: &'a [u32],
+}
+
+impl<const D: usize> Fill<'_, D> {
+    /// Fills particles `first..end`, splitting the range (at multiples of the chunk) until it is small.
+    fn all(&self, first: usize, end: usize, ids: &mut [[u32; 4]], weights: &mut [f64]) {
+        if end - first <= 4 * CHUNK {
+            for a in first..end {
+                self.one(a, self.start[first] as usize, (ids, weights));
+            }
+            return;
+        }
+        let middle = (first + (end - first) / 2).next_multiple_of(CHUNK);
+        let cut = (self.start[middle] - self.start[first]) as usize;
+        let (low, high) = ids.split_at_mut(cut);
+        let (light, heavy) = weights.split_at_mut(cut * PairBlocks::<D>::WORDS);
+        rayon::join(|| self.all(first, middle, low, light), || self.all(middle, end, high, heavy));
+    }
+
+    fn one(&self, a: usize, base: usize, (ids, weights): (&mut [[u32; 4]], &mut [f64])) {
+        let blocks = self.start[a] as usize - base..self.start[a + 1] as usize - base;
+        for (block, four) in blocks.zip(self.list.of(a).chunks(4)) {
+            ids[block] = [a as u32; 4];
+            let words = &mut weights[block * PairBlocks::<D>::WORDS..(block + 1) * PairBlocks::<D>::WORDS];
+            words.fill(0.0);
+            for (l, &b) in four.iter().enumerate() {
+                ids[block][l] = b;
+                let x_ab: Vector<f64, D> = Vector::from_fn(|i| self.x[i][a] - self.x[i][b as usize]);
+                let r = x_ab.norm_squared().sqrt();
+                let slope = self.kernel.dw(r) * self.volume[b as usize];
+                // Particles on top of each other have no direction and no force.
+                let inverse = if r > 0.0 { 1.0 / r } else { 0.0 };
+                for i in 0..D {
+                    words[4 * i + l] = x_ab[i] * inverse;
+                }
+                words[4 * D + l] = slope;
+                words[4 * (D + 1) + l] = slope * inverse;
+            }
+        }
+    }
+}

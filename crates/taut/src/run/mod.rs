@@ -1,0 +1,63 @@
+//! Who runs passes: threads and SIMD lanes ([`Cpu`]), and a plain serial loop as the oracle ([`Serial`]).
+
+mod cpu;
+mod serial;
+
+pub use cpu::{Cpu, InstructionSet};
+pub use serial::Serial;
+
+use crate::field::Quantity;
+use crate::kernel::Kernel;
+use crate::neighbours::{Adjacency, SearchError};
+use crate::particles::Particles;
+use crate::pass::{Now, PairSum, Reduce, Update};
+
+/// Most numbers that one record may have.
+pub const MAX_WORDS: usize = 64;
+
+/// How a pair list is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Relist {
+    /// The field of positions: [`Quantity::ReferencePosition`] or [`Quantity::Position`].
+    pub positions: Quantity,
+    /// The kernel whose gradient the list holds; its support is the search radius.
+    pub kernel: Kernel,
+    /// Which particles may be neighbours.
+    pub among: Among,
+}
+
+/// Which particles may be neighbours of each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Among {
+    /// All of them: bodies feel each other.
+    All,
+    /// Only particles of the same body.
+    SameBody,
+}
+
+/// A back-end: it owns the particles and their pair list, and runs passes over them.
+pub trait Run<const D: usize>: Send {
+    /// The particles.
+    fn particles(&self) -> &Particles<D>;
+
+    /// The particles, to write from outside of passes.
+    fn particles_mut(&mut self) -> &mut Particles<D>;
+
+    /// Finds the neighbours anew and evaluates the kernel of every pair, with the present `Volume` of b.
+    ///
+    /// # Errors
+    /// If a position is not a number.
+    fn relist(&mut self, how: &Relist) -> Result<(), SearchError>;
+
+    /// The neighbours of the last [`Run::relist`].
+    fn adjacency(&self) -> &Adjacency;
+
+    /// For every particle: `sum` over its neighbours, and what follows from it.
+    fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>);
+
+    /// An update of every particle.
+    fn each<U: Update<D, Sum = ()>>(&mut self, update: &U, now: Now<f64>);
+
+    /// `K` numbers of all particles.
+    fn reduce<R: Reduce<D, K>, const K: usize>(&mut self, reduce: &R) -> [f64; K];
+}

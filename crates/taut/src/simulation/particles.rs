@@ -1,0 +1,98 @@
+//! From points to particles that carry the fields of a formulation.
+
+use crate::field::Quantity;
+use crate::formulation::Formulation;
+use crate::integrator::{Total, TotalOptions, Updated, UpdatedOptions};
+use crate::material::Moduli;
+use crate::math::Vector;
+use crate::neighbours::hilbert_order;
+use crate::particles::Particles;
+use crate::run::Run;
+
+/// A particle before it belongs to a formulation.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<const D: usize> {
+    /// Reference position, m.
+    pub x: Vector<f64, D>,
+    /// Initial velocity, m/s.
+    pub v: Vector<f64, D>,
+    /// Volume, m^3 (in 2D m^2).
+    pub volume: f64,
+    /// Index of the body.
+    pub body: u32,
+    /// 1 for every free component, 0 for a prescribed one.
+    pub free: Vector<f64, D>,
+    /// Body force per mass, m/s^2.
+    pub force: Vector<f64, D>,
+}
+
+impl<const D: usize> Point<D> {
+    /// A free particle at rest.
+    #[must_use]
+    pub fn at(x: Vector<f64, D>, volume: f64) -> Self {
+        let zero = Vector::zero();
+        Self { x, v: zero, volume, body: 0, free: Vector([1.0; D]), force: zero }
+    }
+}
+
+fn particles<const D: usize>(
+    points: &[Point<D>],
+    fields: &[Quantity],
+    moduli: impl Fn(u32) -> Moduli,
+) -> Particles<D> {
+    let mut p = Particles::new(points.len());
+    for &field in fields {
+        p.add(field);
+    }
+    for (i, point) in points.iter().enumerate() {
+        p.set_vector(Quantity::ReferencePosition, i, point.x);
+        p.set_vector(Quantity::Velocity, i, Vector::from_fn(|k| point.v[k] * point.free[k]));
+        p.set_vector(Quantity::Free, i, point.free);
+        p.set_vector(Quantity::BodyForce, i, point.force);
+        p.column_mut(Quantity::Volume, 0)[i] = point.volume;
+        p.column_mut(Quantity::Body, 0)[i] = f64::from(point.body);
+        p.column_mut(Quantity::Mass, 0)[i] = moduli(point.body).density * point.volume;
+    }
+    p
+}
+
+/// Puts particles in the order of a space-filling curve; ids stay those of the points.
+fn sort<const D: usize>(p: &mut Particles<D>) {
+    let mut order = Vec::new();
+    // Positions that are not numbers are reported when the run starts.
+    if hilbert_order(p.vector(Quantity::ReferencePosition), &mut order).is_ok() {
+        p.reorder(&order);
+    }
+}
+
+/// A total Lagrangian body; ids count the points.
+pub fn total<const D: usize, F: Formulation<D>, R: Run<D>>(
+    points: &[Point<D>],
+    (formulation, moduli): (F, Moduli),
+    options: TotalOptions,
+    run: impl FnOnce(Particles<D>) -> R,
+) -> Total<D, F, R> {
+    let mut p = particles(points, F::FIELDS, |_| moduli);
+    sort(&mut p);
+    Total::new(formulation, run(p), options)
+}
+
+/// Updated Lagrangian bodies, each with the moduli of its index; ids count the points.
+pub fn updated<const D: usize, F: Formulation<D>, R: Run<D>>(
+    points: &[Point<D>],
+    (formulation, moduli): (F, &dyn Fn(u32) -> Moduli),
+    options: UpdatedOptions,
+    run: impl FnOnce(Particles<D>) -> R,
+) -> Updated<D, F, R> {
+    let mut p = particles(points, F::FIELDS, moduli);
+    for (i, point) in points.iter().enumerate() {
+        let m = moduli(point.body);
+        p.set_vector(Quantity::Position, i, point.x);
+        p.column_mut(Quantity::Density, 0)[i] = m.density;
+        p.column_mut(Quantity::RestDensity, 0)[i] = m.density;
+        p.column_mut(Quantity::SoundSpeed, 0)[i] = m.sound_speed();
+        p.column_mut(Quantity::ShearModulus, 0)[i] = m.shear;
+    }
+    sort(&mut p);
+    Updated::new(formulation, run(p), options)
+}
