@@ -1,1 +1,51 @@
 //! Case files: as written, then checked and in SI, then built; and the one time loop.
+//!
+//! [`Case::read`] turns a TOML file into a [`Case`], in which every number is in SI units, every name is
+//! looked up and every expression compiled, or into a [`CaseError`] that says what is wrong, where, and how to
+//! mend it.
+//!
+//! ```
+//! use case::{Case, Overrides};
+//!
+//! let text = r#"
+//! name = "block"
+//! dimension = 2
+//! spacing = "1 mm"
+//! [material.rubber]
+//! model = "neo-hookean"
+//! density = "1.1 g/cm^3"
+//! youngs_modulus = "17 MPa"
+//! poisson_ratio = 0.45
+//! [[body]]
+//! name = "block"
+//! material = "rubber"
+//! shape = { box = { min = [0, 0], max = ["2 cm", "1 cm"] } }
+//! [time]
+//! end = "5 ms"
+//! "#;
+//! let case = Case::parse("block.toml", text, &Overrides::default())?;
+//! assert_eq!((case.spacing, case.time.end), (0.001, 0.005));
+//!
+//! let wrong = Case::parse("block.toml", text, &Overrides::set(["time.ende=1"]));
+//! assert!(wrong.is_err_and(|error| error.to_string().contains("did you mean `end`?")));
+//! # Ok::<(), case::CaseError>(())
+//! ```
+
+pub mod build;
+mod checked;
+mod diagnostic;
+mod expression;
+pub mod run;
+mod source;
+mod units;
+mod written;
+
+pub use checked::{
+    Axis, Body, Boundary, Case, Constraint, Elastic, Extremum, Family, Feature, FieldExpression, Fill,
+    Formulation, Gravity, Kernel, March, Material, Measure, MeasureKind, Model, Monitor, Plane, Probe,
+    Quantity, Scheme, ShapeSpec, StepRule, Stepping, Time, VectorField,
+};
+pub use diagnostic::{CaseError, Diagnostic};
+pub use expression::{Expression, ExpressionError, Names};
+pub use source::{Overrides, Place};
+pub use units::{Dimension, Quantity as UnitQuantity, UnitError};

@@ -1,1 +1,64 @@
 //! The taut program, callable as a function.
+//!
+//! Exit status: 0 done, 1 the run failed, 2 the input is wrong.
+
+mod arguments;
+mod builtin;
+mod check;
+mod list;
+mod pictures;
+mod progress;
+mod run;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Why the program stops with a status other than 0.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The input is wrong: status 2.
+    Input(String),
+    /// The run failed: status 1.
+    Run(String),
+}
+
+/// Runs the program with these arguments (the first is its name).
+pub fn run<I, A>(arguments: I) -> ExitCode
+where
+    I: IntoIterator<Item = A>,
+    A: Into<OsString> + Clone,
+{
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version come as errors too, with status 0. A closed pipe is nobody's fault.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let done = match arguments.command {
+        Command::Run(options) => run::run(&options),
+        Command::List => list::list(),
+        Command::Check(options) => check::check(&options),
+        Command::Report { .. } => {
+            Err(Failure::Input("`taut report` comes in a later version; `taut run` already draws the pictures.".into()))
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Run(message)) => stop(&message, 1),
+        Err(Failure::Input(message)) => stop(&message, 2),
+    }
+}
+
+fn stop(message: &str, status: u8) -> ExitCode {
+    // Diagnostics of the case file bring their own heading.
+    if message.starts_with("error") {
+        eprintln!("{message}");
+    } else {
+        eprintln!("error: {message}");
+    }
+    ExitCode::from(status)
+}

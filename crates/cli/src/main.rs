@@ -1,2 +1,7 @@
-//! The taut program.
-fn main() {}
+//! The `taut` program.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run(std::env::args_os())
+}

@@ -57,6 +57,17 @@ fn distances_of_exactly_the_radius_do_not_count() {
 }
 
 #[test]
+fn rounding_of_cell_numbers_loses_no_pair() {
+    // Particles on and a rounding below every multiple of the radius: a cell as wide as the radius would put
+    // some that are closer than it two cells apart.
+    for radius in [0.1, 0.3, 0.7] {
+        let on = (0..1500).map(|k| f64::from(k) * radius);
+        let x: Vec<f64> = on.flat_map(|x| [x.next_down(), x]).collect();
+        same_as_trivial(&[x, vec![0.0; 3000]], radius, None);
+    }
+}
+
+#[test]
 fn collinear_flat_and_coincident_sets() {
     let line: Vec<f64> = (0..3000).map(|k| f64::from(k) * 0.1).collect();
     same_as_trivial(&[line.clone(), line.clone()], 0.5, None);

@@ -141,6 +141,15 @@ mod tests {
     }
 
     #[test]
+    fn weights_are_flat_at_the_centre_and_at_the_support() {
+        let squares = LeastSquares::<2>::new([&[], &[]], 2.0, Adjacency::default());
+        let (centre, middle, end) = (squares.weight(2e-4), squares.weight(1.0), squares.weight(1.9998));
+        // 1 - 10 q^2 near the centre, 5 (1 - q)^4 near the support, with q and 1 - q of 1e-4.
+        assert!((centre - 1.0).abs() < 1.1e-7 && end < 6e-16);
+        assert_eq!(middle, 3.0 / 16.0);
+    }
+
+    #[test]
     fn a_row_has_the_identity_across_it_and_a_lone_particle_everywhere() {
         let x0 = [vec![0.0, 1.0, 2.0, 3.0, 90.0], vec![0.0; 5], vec![7.0; 5]];
         let stretched: Vec<f64> = x0[0].iter().map(|v| 2.0 * v).collect();

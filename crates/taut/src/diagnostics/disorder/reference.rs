@@ -122,6 +122,17 @@ impl<const D: usize> Reference<D> {
         Ok(())
     }
 
+    /// The deformation gradients at `x` by least squares, rows first, in the order of the reference: for output of
+    /// formulations that carry none.
+    ///
+    /// # Errors
+    /// As [`Reference::measure`].
+    pub fn deformation(&mut self, x: [&[f64]; D]) -> Result<&[[[f64; D]; D]], DisorderError> {
+        self.check(x)?;
+        self.squares.gradients(x, &mut self.room.f);
+        Ok(&self.room.f)
+    }
+
     fn check(&self, x: [&[f64]; D]) -> Result<(), DisorderError> {
         for column in x {
             length("a column of positions", column.len(), self.dp.len())?;

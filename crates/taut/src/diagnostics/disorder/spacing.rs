@@ -67,6 +67,15 @@ mod tests {
     }
 
     #[test]
+    fn finds_a_pair_hardly_closer_than_the_known_ones() {
+        // The first particle sets the origin of the cells; the third and the last are 0.97 apart, and in cells
+        // nine tenths as wide as the known distance they would be two cells apart.
+        let x = [[0.0, 9.0, 0.85, 5.0, 1.82].as_slice(), &[50.0, 0.0, 0.0, 0.0, 0.0]];
+        let found = smallest(&mut CellGrid::new(), x, &[1.0; 5], 1.0).unwrap();
+        assert!((found - 0.97).abs() < 1e-15, "roundings of numbers below 2: {found}");
+    }
+
+    #[test]
     fn none_one_and_coincident() {
         let found = |x: &[f64]| {
             let dp = vec![2.0; x.len()];

@@ -144,6 +144,7 @@ fn two_bodies_are_two_pieces_and_may_come_close() {
     let near: Vec<f64> = x.iter().map(|&x| if x > 4.5 { x - 0.75 } else { x }).collect();
     let result = reference.measure([&near, &y]).unwrap();
     assert_eq!((result.bond_min, result.spacing_min), (1.0, 0.25));
+    assert!(result.zigzag_max < 1e-14, "each body moved rigidly: {result:?}");
     assert_eq!((result.broken, result.pieces), (0.0, 2));
     assert_eq!(reference.bonds().len(), 2 * (4 * 6 + 5 * 5));
     assert!((0..60).all(|i| reference.has_full_shell(i) == (x[i] % 5.0 % 4.0 > 0.0 && y[i] % 5.0 > 0.0)));

@@ -6,6 +6,7 @@ use super::pressure::{Pushing, push};
 use super::{FIELDS, Hypoelastic, same_body};
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
+use crate::material::Moduli;
 use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
 use crate::run::Run;
@@ -26,6 +27,14 @@ impl NonHourglass {
     #[must_use]
     pub fn new(stress: Hypoelastic, dimension: usize) -> Self {
         Self { stress, zeta: 0.7 * dimension as f64 + 2.1 }
+    }
+
+    /// c_M = sqrt((K + 3 zeta G / (d + 2)) / rho0), m/s: Eq. (19) is zeta/(d + 2) (lap v + 2 grad div v) in the continuum, so the
+    /// fastest wave is faster than the bulk wave that the paper's acoustic step (Eq. 22) looks at.
+    #[must_use]
+    pub fn shear_speed(&self, moduli: &Moduli, dimension: usize) -> f64 {
+        let extra = 3.0 * self.zeta * moduli.shear / (dimension as f64 + 2.0);
+        ((moduli.bulk + extra) / moduli.density).sqrt()
     }
 }
 

@@ -1,0 +1,115 @@
+//! Bodies as points, in the groups that one solver advances.
+
+use super::shapes;
+use crate::{Body, Case, CaseError, Family, Fill, Place, ShapeSpec};
+use geometry::Shape;
+use taut::math::Vector;
+use taut::neighbours::{Adjacency, Search};
+use taut::simulation::Point;
+
+/// Points that share a solver: one total Lagrangian body, or all updated Lagrangian bodies.
+pub struct Group<'a, const D: usize> {
+    /// The bodies, with their index in the case.
+    pub bodies: Vec<(usize, &'a Body)>,
+    /// Their points.
+    pub points: Vec<Point<D>>,
+}
+
+/// A vector of the dimension of the case.
+pub fn vector<const D: usize>(x: [f64; 3]) -> Vector<f64, D> {
+    Vector::from_fn(|i| x[i])
+}
+
+/// The other way round, with zeros.
+pub fn padded<const D: usize>(x: Vector<f64, D>) -> [f64; 3] {
+    std::array::from_fn(|i| if i < D { x[i] } else { 0.0 })
+}
+
+/// A shape of the case, checked.
+pub fn checked<const D: usize>(case: &Case, spec: &ShapeSpec, place: Place) -> Result<Shape, CaseError> {
+    let shape = shapes::shape(spec);
+    match shape.validate(shapes::dimension::<D>()) {
+        Ok(()) => Ok(shape),
+        Err(error) => Err(case.error_at(place, error.to_string(), None)),
+    }
+}
+
+/// Fills all bodies and sorts them into groups, in the order of the file.
+pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseError> {
+    let mut groups: Vec<Group<'_, D>> = Vec::new();
+    for (index, body) in case.bodies.iter().enumerate() {
+        let mut points = fill(case, index, body)?;
+        let updated = body.scheme.formulation.family() == Family::Updated;
+        let shared = groups.iter_mut().find(|g| {
+            updated && g.bodies[0].1.scheme.formulation.family() == Family::Updated
+        });
+        match shared {
+            Some(group) if group.bodies[0].1.scheme.formulation != body.scheme.formulation => {
+                let message = format!(
+                    "body `{}` uses {}, but updated Lagrangian bodies share their pairs and need one formulation",
+                    body.name,
+                    body.scheme.formulation.name()
+                );
+                let help = format!("the bodies before it use {}", group.bodies[0].1.scheme.formulation.name());
+                return Err(case.error_at(body.place, message, Some(help)));
+            }
+            Some(group) => {
+                group.bodies.push((index, body));
+                group.points.append(&mut points);
+            }
+            None => groups.push(Group { bodies: vec![(index, body)], points }),
+        }
+    }
+    Ok(groups)
+}
+
+fn fill<const D: usize>(case: &Case, index: usize, body: &Body) -> Result<Vec<Point<D>>, CaseError> {
+    let shape = shapes::shape(&body.shape);
+    let fill = match body.fill {
+        Fill::Lattice { origin } => geometry::Fill::Lattice { origin },
+        Fill::Concentric => geometry::Fill::Concentric,
+    };
+    let points = geometry::fill(&shape, &fill, case.spacing, shapes::dimension::<D>()).map_err(|error| {
+        case.error_at(body.place, format!("body `{}` cannot be filled: {error}", body.name), None)
+    })?;
+    let mut out = Vec::with_capacity(points.len());
+    for (&x, &volume) in points.x.iter().zip(&points.volume) {
+        let v = body.velocity.eval(x, 0.0);
+        if let Some(bad) = v.iter().find(|c| !c.is_finite()) {
+            let message = format!("the velocity of body `{}` is {bad} at {x:?} m", body.name);
+            return Err(case.error_at(body.place, message, None));
+        }
+        out.push(Point { v: vector(v), body: index as u32, ..Point::at(vector(x), volume) });
+    }
+    Ok(out)
+}
+
+/// What is doubtful about the particles: bodies that overlap at the start, bodies that will not see each other.
+pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if groups.len() > 1 {
+        warnings.push(
+            "bodies of different solvers do not touch each other: contact is between updated Lagrangian bodies only"
+                .to_string(),
+        );
+    }
+    let points: Vec<&Point<D>> = groups.iter().flat_map(|g| &g.points).collect();
+    let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
+    let mut list = Adjacency::default();
+    let found = Search::<D>::new().pairs(
+        std::array::from_fn(|i| columns[i].as_slice()),
+        0.5 * case.spacing,
+        None,
+        &mut list,
+    );
+    let overlaps = |(a, p): (usize, &&Point<D>)| list.of(a).iter().any(|&b| points[b as usize].body != p.body);
+    if found.is_ok() {
+        let count = points.iter().enumerate().filter(|&p| overlaps(p)).count();
+        if count > 0 {
+            warnings.push(format!(
+                "{count} particles of different bodies are closer than half a spacing: the bodies overlap at the start"
+            ));
+        }
+    }
+    warnings
+}

@@ -1,0 +1,195 @@
+//! Boundaries and body forces: what is fixed once, and what changes with time.
+
+use super::bodies::{Group, checked, padded, vector};
+use crate::{Boundary, Case, CaseError, Constraint, FieldExpression, Gravity, VectorField};
+use geometry::Shape;
+use taut::field::Quantity;
+use taut::pass::Now;
+use taut::simulation::{Drive, Point, Solver};
+
+/// A particle before its solver has put it in order: group, index in the group, reference position.
+type Member = (usize, usize, [f64; 3]);
+
+/// Drives that wait for the solvers.
+pub struct Driven {
+    motions: Vec<(Constraint, Vec<Member>)>,
+    forces: Vec<(Member, Vec<VectorField>)>,
+}
+
+/// Marks prescribed components and constant forces in the points.
+pub fn prescribe<const D: usize>(case: &Case, groups: &mut [Group<'_, D>]) -> Result<Driven, CaseError> {
+    let mut motions = Vec::new();
+    for boundary in &case.boundaries {
+        let members = hold(case, boundary, groups)?;
+        if matches!(boundary.constraint, Constraint::Velocity(_) | Constraint::Displacement(_)) {
+            motions.push((boundary.constraint.clone(), members));
+        }
+    }
+    Ok(Driven { motions, forces: pull(case, groups)? })
+}
+
+/// The particles of a boundary, with the components it prescribes no longer free.
+fn hold<const D: usize>(
+    case: &Case,
+    boundary: &Boundary,
+    groups: &mut [Group<'_, D>],
+) -> Result<Vec<Member>, CaseError> {
+    let region = checked::<D>(case, &boundary.region, boundary.place)?;
+    let except = boundary.except.as_ref().map(|e| checked::<D>(case, e, boundary.place)).transpose()?;
+    let held: [bool; 3] = match &boundary.constraint {
+        Constraint::Fixed => [true; 3],
+        Constraint::Fix(axes) => *axes,
+        Constraint::Velocity(fields) | Constraint::Displacement(fields) => {
+            std::array::from_fn(|i| fields[i].is_some())
+        }
+    };
+    let mut members = Vec::new();
+    for (g, group) in groups.iter_mut().enumerate() {
+        for (i, point) in group.points.iter_mut().enumerate() {
+            let x = padded(point.x);
+            let mine = boundary.body.is_none_or(|b| b as u32 == point.body);
+            if mine && region.contains(x) && !except.as_ref().is_some_and(|e| e.contains(x)) {
+                for k in (0..D).filter(|&k| held[k]) {
+                    point.free[k] = 0.0;
+                }
+                members.push((g, i, x));
+            }
+        }
+    }
+    if members.is_empty() {
+        let help = "move or enlarge its region; `taut check` shows where the particles are".to_string();
+        return Err(case.error_at(boundary.place, "this boundary holds no particle", Some(help)));
+    }
+    Ok(members)
+}
+
+/// Constant body forces go into the points; the particles of those that change with time are handed back with
+/// everything that pulls at them.
+fn pull<const D: usize>(
+    case: &Case,
+    groups: &mut [Group<'_, D>],
+) -> Result<Vec<(Member, Vec<VectorField>)>, CaseError> {
+    let regions: Vec<Option<Shape>> = case
+        .gravity
+        .iter()
+        .map(|g| g.region.as_ref().map(super::shapes::shape))
+        .collect();
+    let acts = |gravity: &Gravity, region: &Option<Shape>, point: &Point<D>| {
+        gravity.body.is_none_or(|b| b as u32 == point.body)
+            && region.as_ref().is_none_or(|r| r.contains(padded(point.x)))
+    };
+    let mut forces = Vec::new();
+    for (g, group) in groups.iter_mut().enumerate() {
+        for (i, point) in group.points.iter_mut().enumerate() {
+            let here: Vec<&VectorField> = case
+                .gravity
+                .iter()
+                .zip(&regions)
+                .filter(|(gravity, region)| acts(gravity, region, point))
+                .map(|(gravity, _)| &gravity.acceleration)
+                .collect();
+            let x = padded(point.x);
+            if here.iter().any(|field| field.depends_on_time()) {
+                forces.push(((g, i, x), here.into_iter().cloned().collect()));
+            } else {
+                point.force = vector(total(here.into_iter(), x, 0.0));
+            }
+        }
+    }
+    Ok(forces)
+}
+
+fn total<'a>(fields: impl Iterator<Item = &'a VectorField>, x: [f64; 3], t: f64) -> [f64; 3] {
+    fields.fold([0.0; 3], |sum, field| {
+        let value = field.eval(x, t);
+        std::array::from_fn(|k| sum[k] + value[k])
+    })
+}
+
+impl Driven {
+    /// The drives, now that every particle has its place.
+    pub fn drives(self, solvers: &[Box<dyn Solver>]) -> Vec<Box<dyn Drive>> {
+        let places: Vec<Vec<usize>> = solvers.iter().map(|s| places(s.as_ref())).collect();
+        let find = |(g, i, x): Member| (g, places[g][i], x);
+        let mut drives: Vec<Box<dyn Drive>> = Vec::new();
+        for (constraint, members) in self.motions {
+            let members = members.into_iter().map(find).collect();
+            match constraint {
+                Constraint::Velocity(fields) => drives.push(Box::new(Moving { fields, members })),
+                Constraint::Displacement(fields) => drives.push(Box::new(Placed { fields, members })),
+                Constraint::Fixed | Constraint::Fix(_) => {}
+            }
+        }
+        if !self.forces.is_empty() {
+            let members = self.forces.into_iter().map(|(member, fields)| (find(member), fields)).collect();
+            drives.push(Box::new(Pulling { members }));
+        }
+        drives
+    }
+}
+
+/// Where each id is stored.
+pub fn places(solver: &dyn Solver) -> Vec<usize> {
+    let mut places = vec![0; solver.len()];
+    for (place, &id) in solver.ids().iter().enumerate() {
+        places[id as usize] = place;
+    }
+    places
+}
+
+/// Particles of prescribed velocity.
+struct Moving {
+    fields: [Option<FieldExpression>; 3],
+    members: Vec<(usize, usize, [f64; 3])>,
+}
+
+impl Drive for Moving {
+    fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) {
+        prescribed(&self.fields, &self.members, solvers, |field, x| field.eval(x, now.t + now.dt));
+    }
+}
+
+/// Particles of prescribed displacement: the velocity that takes them there within the step.
+struct Placed {
+    fields: [Option<FieldExpression>; 3],
+    members: Vec<(usize, usize, [f64; 3])>,
+}
+
+impl Drive for Placed {
+    fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) {
+        prescribed(&self.fields, &self.members, solvers, |field, x| {
+            (field.eval(x, now.t + now.dt) - field.eval(x, now.t)) / now.dt
+        });
+    }
+}
+
+fn prescribed(
+    fields: &[Option<FieldExpression>; 3],
+    members: &[(usize, usize, [f64; 3])],
+    solvers: &mut [Box<dyn Solver>],
+    velocity: impl Fn(&FieldExpression, [f64; 3]) -> f64,
+) {
+    for &(g, place, x) in members {
+        let mut v = solvers[g].read(Quantity::PrescribedVelocity, place);
+        for (v, field) in v.iter_mut().zip(fields) {
+            if let Some(field) = field {
+                *v = velocity(field, x);
+            }
+        }
+        solvers[g].write(Quantity::PrescribedVelocity, place, v);
+    }
+}
+
+/// Body forces that change with time.
+struct Pulling {
+    members: Vec<(Member, Vec<VectorField>)>,
+}
+
+impl Drive for Pulling {
+    fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) {
+        for ((g, place, x), fields) in &self.members {
+            let force = total(fields.iter(), *x, now.t + 0.5 * now.dt);
+            solvers[*g].write(Quantity::BodyForce, *place, force);
+        }
+    }
+}

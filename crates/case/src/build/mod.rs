@@ -1,0 +1,58 @@
+//! From a checked case to a simulation: one match over formulations and materials, one over dimensions.
+
+mod bodies;
+mod drives;
+mod observe;
+mod shapes;
+mod solvers;
+
+pub use observe::{Observed, ProbePoint, Watch};
+
+use crate::{Case, CaseError};
+use taut::simulation::{Drive, Solver};
+
+/// Everything a run needs.
+pub struct Built {
+    /// The bodies.
+    pub solvers: Vec<Box<dyn Solver>>,
+    /// What drives them.
+    pub drives: Vec<Box<dyn Drive>>,
+    /// Where each probe reads.
+    pub probes: Vec<ProbePoint>,
+    /// The measure of disorder.
+    pub watch: Box<dyn Watch>,
+    /// Index of the body of every particle, in the order of ids.
+    pub body: Vec<u32>,
+    /// What is doubtful about the particles.
+    pub warnings: Vec<String>,
+}
+
+impl Built {
+    /// How many particles.
+    #[must_use]
+    pub fn particles(&self) -> usize {
+        self.body.len()
+    }
+}
+
+/// Builds the particles, formulations, drives and probes of a case.
+///
+/// # Errors
+/// What shows only now: a body without particles, a boundary that holds nobody, a probe outside of its body.
+pub fn build(case: &Case) -> Result<Built, CaseError> {
+    match case.dimension {
+        2 => in_dimension::<2>(case),
+        _ => in_dimension::<3>(case),
+    }
+}
+
+fn in_dimension<const D: usize>(case: &Case) -> Result<Built, CaseError> {
+    let mut groups = bodies::groups::<D>(case)?;
+    let driven = drives::prescribe(case, &mut groups)?;
+    let solvers = groups.iter().map(|group| solvers::solver(case, group)).collect::<Result<Vec<_>, _>>()?;
+    let drives = driven.drives(&solvers);
+    let probes = observe::probes(case, &groups, &solvers)?;
+    let (watch, body) = observe::disorder(case, &groups)?;
+    let warnings = bodies::warnings(case, &groups);
+    Ok(Built { solvers, drives, probes, watch, body, warnings })
+}

@@ -1,0 +1,164 @@
+//! Probes and disorder.
+
+use super::bodies::{Group, vector};
+use super::drives::places;
+use crate::{Case, CaseError, Quantity};
+use taut::diagnostics::MaterialPoint;
+use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
+use taut::field;
+use taut::neighbours::{Adjacency, Search};
+use taut::simulation::{Snapshot, Solver};
+
+/// Where a probe reads: weights of stored particles of one solver.
+pub struct ProbePoint {
+    solver: usize,
+    point: MaterialPoint,
+    at: [f64; 3],
+    quantity: Quantity,
+}
+
+impl ProbePoint {
+    /// The value now.
+    #[must_use]
+    pub fn value(&self, solvers: &[Box<dyn Solver>]) -> [f64; 3] {
+        let solver = &solvers[self.solver];
+        let mean = |field| self.point.value(|place| solver.read(field, place));
+        match self.quantity {
+            Quantity::Velocity => mean(field::Quantity::Velocity),
+            Quantity::Displacement => mean(field::Quantity::Displacement),
+            Quantity::Position => {
+                let u = mean(field::Quantity::Displacement);
+                std::array::from_fn(|i| self.at[i] + u[i])
+            }
+        }
+    }
+}
+
+/// The probes of a case.
+pub fn probes<const D: usize>(
+    case: &Case,
+    groups: &[Group<'_, D>],
+    solvers: &[Box<dyn Solver>],
+) -> Result<Vec<ProbePoint>, CaseError> {
+    let places: Vec<Vec<usize>> = solvers.iter().map(|s| places(s.as_ref())).collect();
+    let probe = |probe: &crate::Probe| {
+        let found = groups.iter().enumerate().find_map(|(g, group)| {
+            let mine = group.points.iter().enumerate().filter(|(_, p)| p.body as usize == probe.body);
+            let stored = mine.map(|(i, p)| (places[g][i], p.x));
+            Some((g, MaterialPoint::new(stored, vector(probe.at), case.spacing)?))
+        });
+        let (solver, point) = found.ok_or_else(|| {
+            let message = format!("probe `{}` is not in its body: no particle within 2.6 spacings", probe.name);
+            let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
+            let help = format!("`at` is a point of the undeformed body `{name}`");
+            case.error_at(probe.place, message, Some(help))
+        })?;
+        Ok(ProbePoint { solver, point, at: probe.at, quantity: probe.quantity })
+    };
+    case.probes.iter().map(probe).collect()
+}
+
+/// What is observed of the arrangement of particles.
+pub struct Observed {
+    /// The measures of disorder.
+    pub disorder: Disorder,
+    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
+    pub gap: Option<f64>,
+}
+
+/// The measure of disorder of a case, in whatever dimension.
+pub trait Watch: Send {
+    /// Measures the positions of a snapshot.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Observed, DisorderError>;
+
+    /// Deformation gradients by least squares, row by row, for formulations that have none.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) -> Result<(), DisorderError>;
+}
+
+/// The reference arrangement and room for positions.
+struct Arrangement<const D: usize> {
+    reference: Reference<D>,
+    body: Vec<u32>,
+    columns: [Vec<f64>; D],
+    reach: f64,
+    search: Search<D>,
+    pairs: Adjacency,
+}
+
+fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
+    for (i, column) in columns.iter_mut().enumerate() {
+        column.clear();
+        column.extend(snapshot.positions().map(|x| x[i]));
+    }
+}
+
+impl<const D: usize> Watch for Arrangement<D> {
+    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) -> Result<(), DisorderError> {
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        let unit = |k: usize| if k % 4 == 0 { 1.0 } else { 0.0 };
+        out.clear();
+        out.extend(self.reference.deformation(x)?.iter().map(|f| {
+            let component = |k: usize| if k / 3 < D && k % 3 < D { f[k / 3][k % 3] } else { unit(k) };
+            std::array::from_fn(component)
+        }));
+        Ok(())
+    }
+
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Observed, DisorderError> {
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        let disorder = self.reference.measure(x)?;
+        let several = self.body.iter().any(|&b| b != self.body[0]);
+        if several {
+            self.search.pairs(x, self.reach, None, &mut self.pairs)?;
+        }
+        Ok(Observed { disorder, gap: several.then(|| self.gap()).flatten() })
+    }
+}
+
+impl<const D: usize> Arrangement<D> {
+    fn gap(&self) -> Option<f64> {
+        let square = |a: usize, b: usize| -> f64 {
+            self.columns.iter().map(|c| (c[a] - c[b]).powi(2)).sum()
+        };
+        let between = |a: usize| {
+            let mine = self.body[a];
+            self.pairs.of(a).iter().map(|&b| b as usize).filter(move |&b| self.body[b] != mine)
+        };
+        (0..self.body.len())
+            .flat_map(|a| between(a).map(move |b| square(a, b)))
+            .min_by(f64::total_cmp)
+            .map(f64::sqrt)
+    }
+}
+
+/// The measure of disorder of all particles, and the body of each.
+pub fn disorder<const D: usize>(
+    case: &Case,
+    groups: &[Group<'_, D>],
+) -> Result<(Box<dyn Watch>, Vec<u32>), CaseError> {
+    let points = || groups.iter().flat_map(|g| &g.points);
+    let columns: [Vec<f64>; D] = std::array::from_fn(|i| points().map(|p| p.x[i]).collect());
+    let body: Vec<u32> = points().map(|p| p.body).collect();
+    let spacing = vec![case.spacing; body.len()];
+    let support = 2.0 * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max) * case.spacing;
+    let x: [&[f64]; D] = std::array::from_fn(|i| columns[i].as_slice());
+    let reference = Reference::new(x, &body, &spacing, support)
+        .map_err(|error| case.error_at(case.bodies[0].place, error.to_string(), None))?;
+    let arrangement = Arrangement {
+        reference,
+        body: body.clone(),
+        columns,
+        reach: 2.0 * support,
+        search: Search::new(),
+        pairs: Adjacency::default(),
+    };
+    Ok((Box::new(arrangement), body))
+}

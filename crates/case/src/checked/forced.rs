@@ -1,0 +1,38 @@
+//! `--formulation NAME`: one formulation for every body, whatever the file says.
+
+use super::choices::{Family, Formulation};
+use crate::source::{Place, Sources};
+use crate::written::{Node, Table, Value};
+
+/// Writes the formulation into the tree. What the file says about formulations of single bodies, and keys that
+/// only the other family has, go: they were right for the file's own choice. An unknown name is refused later,
+/// as one in the file is.
+pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
+    let typed = format!("--formulation {name}");
+    let (start, end) = (typed.len() - name.len(), typed.len());
+    let place = Place { text: sources.add_argument(typed), start, end };
+    root.set(
+        "formulation",
+        place,
+        Node { value: Value::Text(name.to_string()), place, content: Some(start) },
+    );
+    if let Some(Value::Array(bodies)) = root.get_mut("body").map(|node| &mut node.value) {
+        for body in bodies {
+            if let Value::Table(body) = &mut body.value {
+                body.remove("formulation");
+            }
+        }
+    }
+    match Formulation::NAMES.iter().find(|(n, _)| *n == name).map(|(_, f)| f.family()) {
+        Some(Family::Total) => {
+            root.remove("stepping");
+            root.remove("reference_speed");
+        }
+        Some(Family::Updated) => {
+            if let Some(Value::Table(time)) = root.get_mut("time").map(|node| &mut node.value) {
+                time.remove("step");
+            }
+        }
+        None => {}
+    }
+}

@@ -1,0 +1,172 @@
+//! `[[boundary]]` and `[[gravity]]`: what is imposed on bodies.
+
+use super::choices::Axis;
+use super::field::{FieldExpression, VectorField};
+use super::names::find;
+use super::scope::Scope;
+use super::shape::ShapeSpec;
+use super::shape_reader::ShapeReader;
+use crate::diagnostic::{Diagnostic, Problems};
+use crate::source::Place;
+use crate::units::Dimension;
+use crate::written::{Node, Section, Value, choice};
+
+/// Particles whose motion is prescribed.
+#[derive(Debug, Clone)]
+pub struct Boundary {
+    /// Number of the body; `None` for all.
+    pub body: Option<usize>,
+    /// Particles whose reference position is in here ...
+    pub region: ShapeSpec,
+    /// ... and not in here.
+    pub except: Option<ShapeSpec>,
+    /// What is prescribed.
+    pub constraint: Constraint,
+    /// Its header in the case file.
+    pub place: Place,
+}
+
+/// What a boundary prescribes, per axis; the third has no meaning in 2D.
+#[derive(Debug, Clone)]
+pub enum Constraint {
+    /// Nothing moves.
+    Fixed,
+    /// Nothing moves along the axes that are true.
+    Fix([bool; 3]),
+    /// Velocity, m/s; `None` leaves an axis free.
+    Velocity([Option<FieldExpression>; 3]),
+    /// Displacement from the reference position, m; `None` leaves an axis free.
+    Displacement([Option<FieldExpression>; 3]),
+}
+
+/// A body force.
+#[derive(Debug, Clone)]
+pub struct Gravity {
+    /// Force per mass, m/s^2.
+    pub acceleration: VectorField,
+    /// Number of the body; `None` for all.
+    pub body: Option<usize>,
+    /// Particles whose reference position is in here; `None` for all.
+    pub region: Option<ShapeSpec>,
+}
+
+const KINDS: [&str; 4] = ["fixed", "fix", "velocity", "displacement"];
+
+/// What loads are read with.
+pub(crate) struct LoadReader<'a, 'b> {
+    pub scope: &'a Scope,
+    pub shapes: &'b mut ShapeReader<'a>,
+    /// Names of all bodies of the case, also of wrong ones.
+    pub bodies: &'b [Option<&'a str>],
+}
+
+impl LoadReader<'_, '_> {
+    /// One boundary.
+    pub(crate) fn boundary(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Boundary> {
+        section.only(&["body", "region", "except", KINDS[0], KINDS[1], KINDS[2], KINDS[3]], problems);
+        let body = problems.keep(self.body(section));
+        let region = problems.keep(section.need("region").and_then(|node| self.shapes.shape(node)));
+        let except = problems.keep(self.shape(section, "except"));
+        let constraint = problems.keep(self.constraint(section));
+        let place = section.place;
+        Some(Boundary { body: body?, region: region?, except: except?, constraint: constraint?, place })
+    }
+
+    /// One body force.
+    pub(crate) fn gravity(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Gravity> {
+        section.only(&["acceleration", "body", "region"], problems);
+        let body = problems.keep(self.body(section));
+        let region = problems.keep(self.shape(section, "region"));
+        let acceleration = problems.keep(
+            section
+                .need("acceleration")
+                .and_then(|node| self.scope.vector_field(node, "`acceleration`", Dimension::ACCELERATION)),
+        );
+        Some(Gravity { acceleration: acceleration?, body: body?, region: region? })
+    }
+
+    fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
+        section.get("body").map(|node| find(node, "body", self.bodies)).transpose()
+    }
+
+    fn shape(&mut self, section: &Section<'_>, key: &str) -> Result<Option<ShapeSpec>, Diagnostic> {
+        section.get(key).map(|node| self.shapes.shape(node)).transpose()
+    }
+
+    fn constraint(&self, section: &Section<'_>) -> Result<Constraint, Diagnostic> {
+        let given: Vec<(&str, &Node)> =
+            KINDS.iter().filter_map(|kind| Some((*kind, section.get(kind)?))).collect();
+        match given.as_slice() {
+            [("fixed", node)] => fixed(node),
+            [("fix", node)] => self.fix(node),
+            [("velocity", node)] => {
+                Ok(Constraint::Velocity(self.per_axis(node, "`velocity`", Dimension::SPEED)?))
+            }
+            [(_, node)] => {
+                Ok(Constraint::Displacement(self.per_axis(node, "`displacement`", Dimension::LENGTH)?))
+            }
+            _ => Err(wrong_count(section, &given)),
+        }
+    }
+
+    /// The axes that a list names.
+    fn fix(&self, node: &Node) -> Result<Constraint, Diagnostic> {
+        let axes = &Axis::NAMES[..self.scope.dimension];
+        let mut fixed = [false; 3];
+        match &node.value {
+            Value::Array(items) if !items.is_empty() => {
+                for item in items {
+                    fixed[choice(item, "axis", axes)?.index()] = true;
+                }
+                Ok(Constraint::Fix(fixed))
+            }
+            _ => Err(Diagnostic::at(
+                node.place,
+                format!("`fix` has to be a list of axes, found {}", node.found()),
+            )
+            .help("for example fix = [\"y\"]; fixed = true holds all axes")),
+        }
+    }
+
+    /// An expression or "free" per axis.
+    fn per_axis(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+    ) -> Result<[Option<FieldExpression>; 3], Diagnostic> {
+        let mut fields = [None, None, None];
+        for (i, item) in self.scope.components(node, what)?.iter().enumerate() {
+            if !matches!(&item.value, Value::Text(text) if text == "free") {
+                fields[i] = Some(self.scope.field(item, what, dimension)?);
+            }
+        }
+        if fields.iter().all(Option::is_none) {
+            return Err(Diagnostic::at(
+                node.place,
+                format!("{what} leaves every axis free, so it prescribes nothing"),
+            ));
+        }
+        Ok(fields)
+    }
+}
+
+fn fixed(node: &Node) -> Result<Constraint, Diagnostic> {
+    match node.value {
+        Value::Bool(true) => Ok(Constraint::Fixed),
+        Value::Bool(false) => {
+            Err(Diagnostic::at(node.place, "`fixed = false` prescribes nothing").help("remove this boundary"))
+        }
+        _ => Err(Diagnostic::at(node.place, format!("`fixed` has to be `true`, found {}", node.found()))),
+    }
+}
+
+fn wrong_count(section: &Section<'_>, given: &[(&str, &Node)]) -> Diagnostic {
+    let names: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
+    let (place, found) = match given.last() {
+        None => (section.place, "none".to_string()),
+        Some((_, node)) => (node.place, names.join(", ")),
+    };
+    Diagnostic::at(place, format!("a boundary prescribes exactly one thing, found {found}"))
+        .help("give one of fixed = true, fix = [\"z\"], velocity = [..], displacement = [..]")
+}

@@ -1,0 +1,113 @@
+//! The parts of a case, each with what it refers to.
+
+use super::body::{Body, BodyReader};
+use super::choices::{Formulation, Plane};
+use super::compatible;
+use super::load::{Boundary, Gravity, LoadReader};
+use super::material::{self, Material};
+use super::measure::{Measure, MeasureReader};
+use super::names::part_names;
+use super::probe::{self, Probe};
+use super::scheme::Schemes;
+use super::scope::Scope;
+use super::shape::ShapeSpec;
+use super::shape_reader::ShapeReader;
+use crate::diagnostic::{Diagnostic, Problems};
+use crate::source::Place;
+use crate::written::{Section, Table, Value, list};
+
+/// All parts that are right.
+pub(super) struct Parts {
+    pub formulation: Formulation,
+    pub materials: Vec<Material>,
+    pub regions: Vec<(String, ShapeSpec)>,
+    pub bodies: Vec<Body>,
+    pub boundaries: Vec<Boundary>,
+    pub gravity: Vec<Gravity>,
+    pub probes: Vec<Probe>,
+    pub measures: Vec<Measure>,
+}
+
+impl Parts {
+    /// What is legal but doubtful.
+    pub(super) fn warnings(&self, plane: Option<Plane>) -> Vec<Diagnostic> {
+        compatible::warnings(&self.bodies, &self.materials, plane)
+    }
+}
+
+/// Reads all parts; what is wrong is noted.
+pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Parts {
+    let schemes = Schemes::read(root, scope, problems);
+    let materials = material::read(root, scope, problems);
+    let mut shapes = ShapeReader::new(scope, root, problems);
+    let regions = shapes.all_regions(problems);
+    let (body_sections, body_names) = named_list(root, "body", problems);
+    let bodies = bodies(root, &body_sections, (&mut shapes, &schemes), problems);
+    compatible::check(&bodies, &materials, problems);
+    let mut loads = LoadReader { scope, shapes: &mut shapes, bodies: &body_names };
+    let boundaries = list(root, "boundary", problems);
+    let boundaries = boundaries.iter().filter_map(|s| loads.boundary(s, problems)).collect();
+    let gravity = list(root, "gravity", problems);
+    let gravity = gravity.iter().filter_map(|s| loads.gravity(s, problems)).collect();
+    let (probes, measures) = records(root, scope, &body_names, problems);
+    Parts {
+        formulation: schemes.formulation,
+        materials,
+        regions,
+        bodies,
+        boundaries,
+        gravity,
+        probes,
+        measures,
+    }
+}
+
+/// The sections of a list, and their names; a name that comes twice is noted.
+fn named_list<'a>(
+    root: &'a Table,
+    key: &str,
+    problems: &mut Problems,
+) -> (Vec<Section<'a>>, Vec<Option<&'a str>>) {
+    let sections = list(root, key, problems);
+    let (names, twice) = part_names(&sections);
+    problems.0.extend(twice);
+    (sections, names)
+}
+
+fn bodies<'a>(
+    root: &'a Table,
+    sections: &[Section<'a>],
+    (shapes, schemes): (&mut ShapeReader<'a>, &Schemes),
+    problems: &mut Problems,
+) -> Vec<Body> {
+    if root.get("body").is_none() {
+        let help = "for example [[body]] with name, material and shape";
+        problems.0.push(Diagnostic::at(Place::START, "missing `[[body]]`: a case needs a body").help(help));
+    }
+    let materials: Vec<Option<&str>> = match root.get("material").map(|node| &node.value) {
+        Some(Value::Table(table)) => table.keys().map(Some).collect(),
+        _ => Vec::new(),
+    };
+    let mut reader = BodyReader { scope: shapes.scope, shapes, schemes, materials: &materials };
+    let bodies: Vec<Body> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
+    if bodies.len() == sections.len() && !bodies.is_empty() {
+        schemes.refuse_useless(&bodies, problems);
+    }
+    bodies
+}
+
+/// Probes, and the measures taken from them.
+fn records(
+    root: &Table,
+    scope: &Scope,
+    bodies: &[Option<&str>],
+    problems: &mut Problems,
+) -> (Vec<Probe>, Vec<Measure>) {
+    let (sections, names) = named_list(root, "probe", problems);
+    let probes: Vec<Probe> =
+        sections.iter().filter_map(|section| probe::read(section, scope, bodies, problems)).collect();
+    let (sections, _) = named_list(root, "measure", problems);
+    let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };
+    let measures = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
+    (probes, measures)
+}

@@ -1,0 +1,94 @@
+//! `[[probe]]`.
+
+use super::defaults;
+use super::names::{find, part_name};
+use super::scope::Scope;
+use crate::diagnostic::{Diagnostic, Problems};
+use crate::source::Place;
+use crate::units::Dimension;
+use crate::written::{Section, choice};
+
+/// A material point whose motion is recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// Its name.
+    pub name: String,
+    /// The material point, by its reference position, m.
+    pub at: [f64; 3],
+    /// Number of the body that it belongs to.
+    pub body: usize,
+    /// What is recorded.
+    pub quantity: Quantity,
+    /// Time between two samples, s; 0 for every step.
+    pub interval: f64,
+    /// Where `at` stands in the case file.
+    pub place: Place,
+}
+
+/// What a probe records.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Present minus reference position, m.
+    Displacement,
+    /// Present position, m.
+    Position,
+    /// Velocity, m/s.
+    Velocity,
+}
+
+impl Quantity {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("displacement", Self::Displacement), ("position", Self::Position), ("velocity", Self::Velocity)];
+
+    /// What its numbers are: lengths or speeds.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Displacement | Self::Position => Dimension::LENGTH,
+            Self::Velocity => Dimension::SPEED,
+        }
+    }
+}
+
+/// One probe; `bodies` are the names of all bodies of the case.
+pub(crate) fn read(
+    section: &Section<'_>,
+    scope: &Scope,
+    bodies: &[Option<&str>],
+    problems: &mut Problems,
+) -> Option<Probe> {
+    section.only(&["name", "at", "body", "quantity", "interval"], problems);
+    let name = problems.keep(part_name(section));
+    let at = problems.keep(
+        section.need("at").and_then(|node| Ok((scope.vector(node, "`at`", Dimension::LENGTH)?, node.place))),
+    );
+    let body = problems.keep(body(section, bodies));
+    let quantity = section.get("quantity").map(|node| choice(node, "quantity", Quantity::NAMES));
+    let quantity = problems.keep(quantity.transpose());
+    let interval =
+        section.get("interval").map(|node| scope.not_negative(node, "`interval`", Dimension::TIME));
+    let interval = problems.keep(interval.transpose());
+    let (at, place) = at?;
+    Some(Probe {
+        name: name?.to_string(),
+        at,
+        body: body?,
+        quantity: quantity?.unwrap_or(Quantity::Displacement),
+        interval: interval?.unwrap_or(defaults::PROBE_INTERVAL),
+        place,
+    })
+}
+
+fn body(section: &Section<'_>, bodies: &[Option<&str>]) -> Result<usize, Diagnostic> {
+    match section.get("body") {
+        Some(node) => find(node, "body", bodies),
+        None if bodies.len() <= 1 => Ok(0),
+        None => {
+            let names: Vec<&str> = bodies.iter().copied().flatten().collect();
+            Err(Diagnostic::at(
+                section.place,
+                format!("{} has to say which `body` it belongs to", section.title),
+            )
+            .help(format!("the bodies are {}", names.join(", "))))
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! How each body is marched in time: the formulation and what depends on it.
+
+use super::body::Body;
+use super::choices::{Family, Formulation, StepRule, Stepping};
+use super::defaults;
+use super::scope::Scope;
+use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
+use crate::source::Place;
+use crate::units::Dimension;
+use crate::written::{Node, Table, Value, choice, optional, text};
+
+/// How a body is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scheme {
+    /// The formulation.
+    pub formulation: Formulation,
+    /// Smoothing length over spacing.
+    pub smoothing: f64,
+    /// Fraction of the stable time step that is taken, in (0, 1].
+    pub cfl: f64,
+    /// What only this family of formulations has.
+    pub march: March,
+}
+
+/// What only one family of formulations has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum March {
+    /// Total Lagrangian.
+    Total {
+        /// How the step is bounded.
+        step: StepRule,
+    },
+    /// Updated Lagrangian.
+    Updated {
+        /// How neighbours are renewed.
+        stepping: Stepping,
+        /// Floor of the advection speed, m/s.
+        reference_speed: f64,
+    },
+}
+
+/// What the case says about schemes, before a body asks.
+#[derive(Debug, Clone)]
+pub(crate) struct Schemes {
+    /// Of a body that does not name its own.
+    pub formulation: Formulation,
+    smoothing: Option<f64>,
+    cfl: Option<f64>,
+    step: Option<(StepRule, Place)>,
+    stepping: Option<(Stepping, Place)>,
+    reference_speed: Option<(f64, Place)>,
+}
+
+impl Schemes {
+    /// Reads the keys of the case; a wrong one is noted and left out.
+    pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Self {
+        let time = match root.get("time").map(|node| &node.value) {
+            Some(Value::Table(table)) => Some(table),
+            _ => None,
+        };
+        let of_time = |key| time.and_then(|table| table.get(key));
+        let number = Dimension::NUMBER;
+        let formulation = optional(root.get("formulation"), problems, read_formulation);
+        let smoothing =
+            optional(root.get("smoothing"), problems, |n| scope.positive(n, "`smoothing`", number));
+        let cfl = optional(of_time("cfl"), problems, |n| cfl(scope, n));
+        Self {
+            formulation: formulation.map_or(defaults::FORMULATION, |(formulation, _)| formulation),
+            smoothing: smoothing.map(|(value, _)| value),
+            cfl: cfl.map(|(value, _)| value),
+            step: optional(of_time("step"), problems, |n| choice(n, "step", StepRule::NAMES)),
+            stepping: optional(root.get("stepping"), problems, |n| choice(n, "stepping", Stepping::NAMES)),
+            reference_speed: optional(root.get("reference_speed"), problems, |n| {
+                scope.not_negative(n, "`reference_speed`", Dimension::SPEED)
+            }),
+        }
+    }
+
+    /// The scheme of a body with its own formulation (or none).
+    pub(crate) fn of(&self, own: Option<Formulation>) -> Scheme {
+        let formulation = own.unwrap_or(self.formulation);
+        let march = match formulation.family() {
+            Family::Total => March::Total { step: self.step.map_or(defaults::STEP, |(step, _)| step) },
+            Family::Updated => March::Updated {
+                stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
+                reference_speed: self.reference_speed.map_or(defaults::REFERENCE_SPEED, |(speed, _)| speed),
+            },
+        };
+        Scheme {
+            formulation,
+            smoothing: self.smoothing.unwrap_or(defaults::smoothing(formulation)),
+            cfl: self.cfl.unwrap_or(defaults::cfl(formulation)),
+            march,
+        }
+    }
+
+    /// Refuses keys of a family that no body of the case belongs to.
+    pub(crate) fn refuse_useless(&self, bodies: &[Body], problems: &mut Problems) {
+        let used = |family| bodies.iter().any(|body| body.scheme.formulation.family() == family);
+        let updated_only = [
+            ("stepping", self.stepping.map(|(_, place)| place)),
+            ("reference_speed", self.reference_speed.map(|(_, place)| place)),
+        ];
+        for (key, place) in updated_only {
+            if let Some(place) = place.filter(|_| !used(Family::Updated)) {
+                problems.0.push(useless(key, "updated Lagrangian formulations (ul-*)", place));
+            }
+        }
+        if let Some((_, place)) = self.step.filter(|_| !used(Family::Total)) {
+            problems.0.push(useless("step", "total Lagrangian formulations (tl-*)", place));
+        }
+    }
+}
+
+fn useless(key: &str, family: &str, place: Place) -> Diagnostic {
+    Diagnostic::at(place, format!("`{key}` belongs to {family}, and no body of this case uses one"))
+        .help("remove it, or choose another formulation")
+}
+
+fn cfl(scope: &Scope, node: &Node) -> Result<f64, Diagnostic> {
+    let cfl = scope.positive(node, "`cfl`", Dimension::NUMBER)?;
+    if cfl <= 1.0 {
+        return Ok(cfl);
+    }
+    Err(Diagnostic::at(node.place, format!("`cfl` has to lie in (0, 1], found {cfl}"))
+        .label("no explicit step is stable beyond 1"))
+}
+
+/// The formulation that a text names.
+pub(crate) fn read_formulation(node: &Node) -> Result<Formulation, Diagnostic> {
+    let (name, place) = (text(node, "formulation")?, node.place);
+    if let Some((_, formulation)) = Formulation::NAMES.iter().find(|(n, _)| *n == name) {
+        return Ok(*formulation);
+    }
+    let names = Formulation::NAMES.iter().map(|(n, _)| *n);
+    if Formulation::LATER.contains(&name) {
+        let names: Vec<&str> = names.collect();
+        return Err(Diagnostic::at(
+            place,
+            format!("the formulation `{name}` is planned, but not in this version"),
+        )
+        .help(format!("there are {}", names.join(", "))));
+    }
+    Err(Diagnostic::at(place, format!("unknown formulation `{name}`")).help(did_you_mean(name, names)))
+}

@@ -1,0 +1,186 @@
+//! Turning what is written into numbers: plain, with a unit, or an expression of the parameters.
+
+use super::field::{FieldExpression, VectorField};
+use crate::diagnostic::Diagnostic;
+use crate::expression::{Expression, ExpressionError, Names};
+use crate::units::{Dimension, Quantity};
+use crate::written::{Node, Value};
+
+/// What numbers are read with.
+#[derive(Debug, Default)]
+pub(crate) struct Scope {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Names and SI values, in the order of the file.
+    pub parameters: Vec<(String, f64)>,
+    /// For parameters that were given with a unit: what they are.
+    pub units: Vec<(String, Quantity)>,
+}
+
+/// The variables of a field.
+const PLACE_AND_TIME: [&str; 4] = ["x", "y", "z", "t"];
+
+impl Scope {
+    /// A number in SI. A quantity has to have the dimension; a plain number is taken to be in SI.
+    pub(crate) fn number(&self, node: &Node, what: &str, dimension: Dimension) -> Result<f64, Diagnostic> {
+        let number = self.expression(node, what, dimension, &[])?.eval(&[]);
+        if number.is_finite() {
+            Ok(number)
+        } else {
+            Err(Diagnostic::at(node.place, format!("{what} is {number}, expected a finite number")))
+        }
+    }
+
+    /// A number greater than zero.
+    pub(crate) fn positive(&self, node: &Node, what: &str, dimension: Dimension) -> Result<f64, Diagnostic> {
+        let number = self.number(node, what, dimension)?;
+        if number > 0.0 {
+            Ok(number)
+        } else {
+            Err(Diagnostic::at(node.place, format!("{what} has to be positive, found {number}"))
+                .label("expected a number > 0"))
+        }
+    }
+
+    /// A number that is zero or greater.
+    pub(crate) fn not_negative(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+    ) -> Result<f64, Diagnostic> {
+        let number = self.number(node, what, dimension)?;
+        if number >= 0.0 {
+            Ok(number)
+        } else {
+            Err(Diagnostic::at(node.place, format!("{what} must not be negative, found {number}")))
+        }
+    }
+
+    /// One number per axis; the third is 0 in 2D.
+    pub(crate) fn vector(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+    ) -> Result<[f64; 3], Diagnostic> {
+        let mut vector = [0.0; 3];
+        for (i, item) in self.components(node, what)?.iter().enumerate() {
+            vector[i] = self.number(item, what, dimension)?;
+        }
+        Ok(vector)
+    }
+
+    /// A list with one entry per axis.
+    pub(crate) fn components<'a>(&self, node: &'a Node, what: &str) -> Result<&'a [Node], Diagnostic> {
+        let wanted = self.dimension;
+        match &node.value {
+            Value::Array(items) if items.len() == wanted => Ok(items),
+            _ => Err(Diagnostic::at(
+                node.place,
+                format!("{what} has to be a list of {wanted} (dimension = {wanted}), found {}", node.found()),
+            )
+            .label(format!("expected {wanted} entries"))),
+        }
+    }
+
+    /// A function of place and time.
+    pub(crate) fn field(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+    ) -> Result<FieldExpression, Diagnostic> {
+        let expression = self.expression(node, what, dimension, &PLACE_AND_TIME)?;
+        if self.dimension == 2 && expression.uses(2) {
+            return Err(Diagnostic::at(
+                node.place,
+                format!("{what} uses `z`, which a 2D case does not have"),
+            ));
+        }
+        match expression.as_constant() {
+            Some(value) if !value.is_finite() => {
+                Err(Diagnostic::at(node.place, format!("{what} is {value}, expected a finite number")))
+            }
+            _ => Ok(FieldExpression::new(expression)),
+        }
+    }
+
+    /// A function of place and time per axis; the third is 0 in 2D.
+    pub(crate) fn vector_field(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+    ) -> Result<VectorField, Diagnostic> {
+        let mut field = VectorField::default();
+        for (i, item) in self.components(node, what)?.iter().enumerate() {
+            field.components[i] = self.field(item, what, dimension)?;
+        }
+        Ok(field)
+    }
+
+    /// A number, a quantity, or an expression of the parameters and `variables`.
+    fn expression(
+        &self,
+        node: &Node,
+        what: &str,
+        dimension: Dimension,
+        variables: &[&str],
+    ) -> Result<Expression, Diagnostic> {
+        let text = match &node.value {
+            Value::Integer(number) => return Ok(Expression::constant(*number as f64)),
+            Value::Number(number) => return Ok(Expression::constant(*number)),
+            Value::Text(text) => text,
+            _ => {
+                return Err(Diagnostic::at(
+                    node.place,
+                    format!("{what} has to be a number, found {}", node.found()),
+                )
+                .label("expected a number, a quantity or an expression")
+                .help("for example 0.02, \"20 mm\" or \"2*L\""));
+            }
+        };
+        if let Some(quantity) = self.quantity(node, text)? {
+            check_dimension(node, what, &quantity, dimension)?;
+            return Ok(Expression::constant(quantity.value));
+        }
+        let names = Names { variables, constants: &self.parameters };
+        Expression::parse(text, &names).map_err(|error| expression_diagnostic(node, error))
+    }
+
+    /// A quantity: "17 MPa", or the name of a parameter that was given with a unit.
+    fn quantity(&self, node: &Node, text: &str) -> Result<Option<Quantity>, Diagnostic> {
+        match read_quantity(node, text)? {
+            Some(quantity) => Ok(Some(quantity)),
+            None => Ok(self.units.iter().find(|(name, _)| name == text.trim()).map(|(_, q)| q.clone())),
+        }
+    }
+}
+
+/// The quantity that a text is, if it has the form of one.
+pub(crate) fn read_quantity(node: &Node, text: &str) -> Result<Option<Quantity>, Diagnostic> {
+    Quantity::parse(text).transpose().map_err(|error| {
+        let place = node.content.map_or(node.place, |content| node.place.part(content, &error.span));
+        Diagnostic::at(place, error.message).help(error.hint)
+    })
+}
+
+/// Points at the part of the text that an expression's error is about.
+pub(crate) fn expression_diagnostic(node: &Node, error: ExpressionError) -> Diagnostic {
+    let place = node.content.map_or(node.place, |content| node.place.part(content, &error.span));
+    let diagnostic = Diagnostic::at(place, error.message);
+    match error.hint {
+        Some(hint) => diagnostic.help(hint),
+        None => diagnostic,
+    }
+}
+
+fn check_dimension(node: &Node, what: &str, found: &Quantity, expected: Dimension) -> Result<(), Diagnostic> {
+    if found.dimension == expected {
+        return Ok(());
+    }
+    let found = format!("{} ({})", found.dimension.name(), found.unit);
+    Err(Diagnostic::at(node.place, format!("{what}: expected {expected}, found {found}"))
+        .label(format!("this is {found}")))
+}

@@ -1,0 +1,48 @@
+//! Why a run did not come to its end.
+
+use crate::CaseError;
+use output::OutputError;
+use std::path::PathBuf;
+use taut::diagnostics::disorder::DisorderError;
+use taut::integrator::Diverged;
+
+/// A run that failed.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The case is wrong.
+    #[error("{0}")]
+    Case(#[from] CaseError),
+    /// Something could not be written.
+    #[error("{cause}\nhint: {}", cause.hint())]
+    Output {
+        /// What happened.
+        #[from]
+        cause: OutputError,
+    },
+    /// The run diverged; what it had is in `results`.
+    #[error("{diverged}\nthe frames up to then are in {}", results.display())]
+    Diverged {
+        /// What happened.
+        diverged: Box<Diverged>,
+        /// Where the results are.
+        results: PathBuf,
+    },
+    /// The arrangement of particles could not be measured.
+    #[error("the disorder of the particles cannot be measured: {0}")]
+    Disorder(#[from] DisorderError),
+    /// Threads could not be started.
+    #[error("cannot start threads: {0}\nhint: try fewer with --threads")]
+    Threads(String),
+}
+
+impl RunError {
+    pub(super) fn threads(error: rayon::ThreadPoolBuildError) -> Self {
+        Self::Threads(error.to_string())
+    }
+
+    /// Whether the input is to blame, rather than the run.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Case(_) | Self::Output { cause: OutputError::AlreadyExists { .. } })
+    }
+}

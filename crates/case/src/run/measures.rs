@@ -1,0 +1,95 @@
+//! Named results.
+
+use super::curves::{Curve, Point};
+use crate::{Case, Extremum, Feature, MeasureKind, Quantity};
+use output::summary::Measured;
+use std::collections::BTreeMap;
+use taut::simulation::{Snapshot, Totals};
+
+/// Samples of a probe.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// Values, by axis.
+    pub values: [Vec<f64>; 3],
+}
+
+/// What named results are made from.
+pub struct Evidence<'a> {
+    /// Samples of every probe.
+    pub series: &'a [Series],
+    /// Totals at the start.
+    pub start: Totals,
+    /// Totals at the end.
+    pub end: Totals,
+    /// State at the end.
+    pub snapshot: &'a Snapshot,
+    /// Mass of every particle.
+    pub mass: &'a [f64],
+    /// When bodies first touched, s.
+    pub contact: Option<f64>,
+}
+
+impl Evidence<'_> {
+    /// All results that the case names.
+    pub fn measured(&self, case: &Case) -> BTreeMap<String, Measured> {
+        case.measures.iter().map(|m| (m.name.clone(), self.one(case, &m.kind))).collect()
+    }
+
+    fn one(&self, case: &Case, kind: &MeasureKind) -> Measured {
+        match kind {
+            MeasureKind::Probe { probe, axis, feature } => {
+                let series = &self.series[*probe];
+                let curve = Curve { times: &series.times, values: &series.values[axis.index()] };
+                let unit = if case.probes[*probe].quantity == Quantity::Velocity { "m/s" } else { "m" };
+                feature_of(&curve, feature, unit)
+            }
+            MeasureKind::KineticRatio => Measured::value(self.end.kinetic / self.start.kinetic, "1"),
+            MeasureKind::ContactStart => match self.contact {
+                Some(time) => Measured::value(time, "s"),
+                None => Measured::missing("s", "the bodies did not touch before the end of the run"),
+            },
+            MeasureKind::ReboundSpeed { body } => Measured::value(self.mean_speed(*body), "m/s"),
+        }
+    }
+
+    /// Speed of the centre of mass.
+    fn mean_speed(&self, body: usize) -> f64 {
+        let mine = || (0..self.mass.len()).filter(|&i| self.snapshot.body[i] as usize == body);
+        let mass: f64 = mine().map(|i| self.mass[i]).sum();
+        let momentum = mine().fold([0.0; 3], |p: [f64; 3], i| {
+            std::array::from_fn(|k| p[k] + self.mass[i] * self.snapshot.velocity[i][k])
+        });
+        momentum.iter().map(|p| p * p).sum::<f64>().sqrt() / mass
+    }
+}
+
+fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
+    let end = curve.times.last().copied().unwrap_or(0.0);
+    let short = |what: &str, unit: &str| {
+        Measured::missing(unit, &format!("the run ended at {end} s, before {what}"))
+    };
+    let point = |p: Option<Point>, what: &str| {
+        p.map_or_else(|| short(what, unit), |p| Measured::value(p.value, unit).at(p.time))
+    };
+    let crossing = |n, what: &str| {
+        curve.crossing(n).map_or_else(|| short(what, "s"), |t| Measured::value(t, "s"))
+    };
+    match *feature {
+        Feature::FirstCrossing => crossing(1, "the first zero crossing"),
+        Feature::SecondCrossing => crossing(2, "the second zero crossing"),
+        Feature::Maximum => point(curve.maximum(), "the first sample"),
+        Feature::Minimum => point(curve.minimum(), "the first sample"),
+        Feature::TurningPoint { extremum, prominence, index } => {
+            let wanted = extremum == Extremum::Maximum;
+            let all = curve.turning_points(prominence);
+            let found = all.iter().filter(|p| p.1 == wanted).nth(index - 1).map(|p| p.0);
+            point(found, &format!("turning point number {index}"))
+        }
+        Feature::ValueAt { time } => {
+            let value = curve.at(time).map(|value| Point { time, value });
+            point(value, &format!("t = {time} s"))
+        }
+    }
+}

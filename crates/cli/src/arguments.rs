@@ -1,0 +1,63 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Meshless solver for solids that stretch, twist, hit and bounce.
+#[derive(Debug, Parser)]
+#[command(name = "taut", version, about, subcommand_required = true, arg_required_else_help = true)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a case: a file, or a built-in case by name (see `taut list`)
+    Run(RunOptions),
+    /// List the built-in cases and benchmarks
+    List,
+    /// Tell everything that can be known without running: particles, memory, time step, run time, warnings
+    Check(CaseOptions),
+    /// Rebuild pictures and report of a run (later)
+    Report {
+        /// Result directory
+        dir: PathBuf,
+    },
+}
+
+/// What to run.
+#[derive(Debug, Args)]
+pub struct CaseOptions {
+    /// Path of a case file, or name of a built-in case; the default is ul-rings
+    #[arg(default_value = "ul-rings")]
+    pub case: String,
+    /// Override a value of the case file, for instance --set parameters.resolution=20
+    #[arg(long = "set", value_name = "a.b=value")]
+    pub set: Vec<String>,
+    /// Override the formulation of every deformable body
+    #[arg(long, value_name = "NAME")]
+    pub formulation: Option<String>,
+}
+
+/// What to run, and how.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    #[command(flatten)]
+    pub case: CaseOptions,
+    /// Result directory [default: out/<case>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads [default: as many as the particles can use]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// No progress, no messages
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Precision of the arithmetic (later)
+    #[arg(long, value_name = "double|single")]
+    pub precision: Option<String>,
+    /// Go on from the last checkpoint (later)
+    #[arg(long)]
+    pub resume: bool,
+}

@@ -1,0 +1,59 @@
+//! The cases that come with the program.
+
+use crate::Failure;
+use crate::arguments::CaseOptions;
+use case::{Case, Overrides};
+use std::path::Path;
+
+/// Name and text of every built-in case.
+pub const CASES: &[(&str, &str)] = &[
+    ("tl-plate", include_str!("../../../cases/tl-plate.toml")),
+    ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
+    ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
+    ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
+];
+
+/// Benchmarks of the papers that are not there yet.
+const LATER: &[&str] = &[
+    "tl-punch",
+    "tl-pull-2d",
+    "tl-pull-3d",
+    "tl-twisting-column",
+    "tl-stent",
+    "ul-plate-3d",
+    "ul-hollow-balls",
+    "ul-ball-plate-2d",
+    "ul-ball-plate-3d",
+    "lk-rectangle",
+    "lk-annulus",
+    "lk-stability",
+    "lk-collision",
+];
+
+/// Reads and checks the case that the options name.
+pub fn read(options: &CaseOptions) -> Result<Case, Failure> {
+    let overrides = Overrides { set: options.set.clone(), formulation: options.formulation.clone() };
+    let read = match CASES.iter().find(|(name, _)| *name == options.case) {
+        Some((name, text)) => Case::parse(&format!("{name}.toml (built in)"), text, &overrides),
+        None if LATER.contains(&options.case.as_str()) => {
+            return Err(Failure::Input(format!("the benchmark {} comes in a later version.", options.case)));
+        }
+        None if !Path::new(&options.case).exists() => return Err(unknown(&options.case)),
+        None => Case::read(Path::new(&options.case), &overrides),
+    };
+    read.map_err(|error| Failure::Input(error.render(colour())))
+}
+
+/// Whether messages may be coloured.
+pub fn colour() -> bool {
+    use std::io::IsTerminal;
+    std::env::var_os("NO_COLOR").is_none() && std::io::stderr().is_terminal()
+}
+
+fn unknown(name: &str) -> Failure {
+    let names: Vec<&str> = CASES.iter().map(|(name, _)| *name).collect();
+    Failure::Input(format!(
+        "there is no case file `{name}`, and no built-in case of that name\nbuilt-in cases: {}",
+        names.join(", ")
+    ))
+}

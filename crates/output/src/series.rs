@@ -1,0 +1,100 @@
+//! The frames of a run as one time series for ParaView.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::{Frame, OutputError, ResultDir, vtp, write_atomically};
+
+/// Writes `particles/particles_000000.vtp`, ... and the list of them with their times,
+/// `particles/particles.pvd`, which is the file to open.
+///
+/// A frame is listed only after it is complete, and the list is replaced in one step: a run may be
+/// killed, or looked at while it goes on, at any moment.
+#[derive(Debug)]
+pub struct Series {
+    folder: PathBuf,
+    times: Vec<f64>,
+}
+
+impl Series {
+    /// Starts the series in the folder `particles` of the results.
+    ///
+    /// # Errors
+    /// As [`ResultDir::folder`].
+    pub fn create(results: &ResultDir) -> Result<Self, OutputError> {
+        Ok(Self { folder: results.folder("particles")?, times: Vec::new() })
+    }
+
+    /// Writes the next frame and lists it.
+    ///
+    /// # Errors
+    /// [`OutputError::Write`]; [`OutputError::Inconsistent`] if an array does not fit the particles or
+    /// the time is not later than that of the frame before. Frames written before stay readable.
+    pub fn write(&mut self, frame: &Frame) -> Result<(), OutputError> {
+        frame.check()?;
+        if let Some(&last) = self.times.last().filter(|&&last| last >= frame.time) {
+            let problem =
+                format!("its time {} s is not after {last} s, that of the frame before", frame.time);
+            return Err(OutputError::inconsistent(format!("frame {}", frame.step), problem));
+        }
+        let path = self.folder.join(file_name(self.times.len()));
+        let bytes = vtp::encode(frame).map_err(|cause| OutputError::write(&path, cause))?;
+        write_atomically(&path, &bytes)?;
+        self.times.push(frame.time);
+        write_atomically(&self.folder.join("particles.pvd"), self.list().as_bytes())
+    }
+
+    /// How many frames have been written.
+    pub fn frames(&self) -> usize {
+        self.times.len()
+    }
+
+    fn list(&self) -> String {
+        let mut xml = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for (index, time) in self.times.iter().enumerate() {
+            let file = file_name(index);
+            let _ = writeln!(xml, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+        }
+        xml + "</Collection>\n</VTKFile>\n"
+    }
+}
+
+fn file_name(index: usize) -> String {
+    format!("particles_{index:06}.vtp")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(time: f64) -> Frame {
+        Frame { time, step: 0, points: vec![[0.0; 3]], arrays: vec![] }
+    }
+
+    #[test]
+    fn times_must_grow_and_a_refused_frame_changes_nothing() {
+        let scratch = tempfile::tempdir().unwrap();
+        let mut series = Series::create(&ResultDir::create(scratch.path()).unwrap()).unwrap();
+        series.write(&frame(0.1)).unwrap();
+        for time in [0.1, 0.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(series.write(&frame(time)), Err(OutputError::Inconsistent { .. })), "{time}");
+        }
+        series.write(&frame(0.2)).unwrap();
+        assert_eq!(series.frames(), 2);
+        let list = std::fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
+        assert_eq!(list.matches("<DataSet").count(), 2);
+        assert_eq!(std::fs::read_dir(scratch.path().join("particles")).unwrap().count(), 3);
+    }
+
+    #[test]
+    fn a_folder_that_vanished_is_an_error_with_the_file() {
+        let scratch = tempfile::tempdir().unwrap();
+        let mut series = Series::create(&ResultDir::create(scratch.path()).unwrap()).unwrap();
+        std::fs::remove_dir(scratch.path().join("particles")).unwrap();
+        let error = series.write(&frame(0.0)).unwrap_err();
+        assert!(error.to_string().contains("particles_000000.vtp"), "{error}");
+        assert_eq!(series.frames(), 0);
+    }
+}

@@ -1,0 +1,242 @@
+//! What the property tests share: a material, particles, bodies of every formulation, and a clock without drives.
+#![allow(dead_code, reason = "every test binary uses its own share")]
+
+pub mod points;
+
+use taut::field::Quantity;
+use taut::formulation::{Formulation, total, updated};
+use taut::integrator::{
+    Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed,
+};
+use taut::kernel::{Kernel, Shape};
+use taut::material::{Moduli, NeoHookean, Plane};
+use taut::math::Tensor;
+use taut::particles::Particles;
+use taut::pass::Now;
+use taut::run::{Cpu, Run};
+use taut::simulation::{self, Point, Solver};
+
+/// No time passes: a pass run at this moment shows what it computes and moves nothing.
+pub const STILL: Now<f64> = Now { t: 0.0, dt: 0.0 };
+/// A step of one second: a rate integrated over it is the rate itself.
+pub const ONE: Now<f64> = Now { t: 0.0, dt: 1.0 };
+
+/// Which formulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `tl-hourglass-free`.
+    HourglassFree,
+    /// `tl-nested`.
+    TotalNested,
+    /// `ul-non-hourglass`.
+    NonHourglass,
+    /// `ul-nested`.
+    UpdatedNested,
+}
+
+/// All of them.
+pub const FORMS: [Form; 4] =
+    [Form::HourglassFree, Form::TotalNested, Form::NonHourglass, Form::UpdatedNested];
+
+/// What a body is made of and how it is stepped.
+#[derive(Clone, Copy, Debug)]
+pub struct Setup {
+    /// Particle spacing, m.
+    pub dp: f64,
+    /// Moduli of all bodies.
+    pub moduli: Moduli,
+    /// Meaning of 2D.
+    pub plane: Plane,
+    /// When updated Lagrangian lists are made anew.
+    pub stepping: Stepping,
+    /// Courant number of the total Lagrangian step; the updated one takes two thirds of it.
+    pub cfl: f64,
+}
+
+impl Setup {
+    /// Rubber of the plate benchmarks (rho 1000, E 2 MPa, nu 0.4) with spacing `dp`, in plane strain where 2D.
+    pub fn new(dp: f64) -> Self {
+        let moduli = Moduli::from_young(1000.0, 2e6, 0.4);
+        Self { dp, moduli, plane: Plane::Strain, stepping: Stepping::Dual, cfl: 0.6 }
+    }
+
+    pub fn material(&self) -> NeoHookean {
+        NeoHookean { moduli: self.moduli, plane: self.plane }
+    }
+
+    /// (K + G) / (rho0 dp): the acceleration that a strain of one makes over one spacing, m/s^2.
+    pub fn acceleration(&self) -> f64 {
+        (self.moduli.bulk + self.moduli.shear) / (self.moduli.density * self.dp)
+    }
+
+    pub fn total_kernel(&self, dimension: usize) -> Kernel {
+        Kernel::new(Shape::WendlandC2, 1.15 * self.dp, dimension)
+    }
+
+    pub fn updated_kernel(&self, dimension: usize) -> Kernel {
+        Kernel::new(Shape::WendlandC2, 1.3 * self.dp, dimension)
+    }
+
+    pub fn total_options(&self, dimension: usize) -> TotalOptions {
+        TotalOptions {
+            kernel: self.total_kernel(dimension),
+            cfl: self.cfl,
+            wave_speed: WaveSpeed::Stretch,
+            bulk_speed: self.moduli.sound_speed(),
+        }
+    }
+
+    pub fn updated_options(&self, dimension: usize) -> UpdatedOptions {
+        let (m, c0) = (self.moduli, self.moduli.sound_speed());
+        let d = dimension as f64;
+        let longitudinal = m.bulk + 3.0 * (0.7 * d + 2.1) * m.shear / (d + 2.0);
+        UpdatedOptions {
+            kernel: self.updated_kernel(dimension),
+            cfl: self.cfl / 1.5,
+            advection_cfl: 0.2,
+            stepping: self.stepping,
+            reference_speed: 0.05 * c0,
+            bulk_speed: c0,
+            shear_speed: (longitudinal / m.density).sqrt(),
+        }
+    }
+
+    pub fn hourglass_free(&self, dimension: usize) -> total::HourglassFree<NeoHookean> {
+        total::HourglassFree::new(self.material(), self.total_kernel(dimension).h())
+    }
+
+    pub fn total_nested(&self, dimension: usize) -> total::Nested<NeoHookean> {
+        total::Nested::new(self.material(), self.total_kernel(dimension).h())
+    }
+
+    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass {
+        updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
+    }
+
+    pub fn updated_nested(&self) -> updated::Nested {
+        updated::Nested { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    /// A total Lagrangian body.
+    pub fn total<const D: usize, F: Formulation<D>>(
+        &self,
+        formulation: F,
+        points: &[Point<D>],
+    ) -> Total<D, F, Cpu<D>> {
+        simulation::total(points, (formulation, self.moduli), self.total_options(D), Cpu::new)
+    }
+
+    /// Updated Lagrangian bodies.
+    pub fn updated<const D: usize, F: Formulation<D>>(
+        &self,
+        formulation: F,
+        points: &[Point<D>],
+    ) -> Updated<D, F, Cpu<D>> {
+        let all = |_| self.moduli;
+        simulation::updated(points, (formulation, &all), self.updated_options(D), Cpu::new)
+    }
+
+    /// Bodies of any formulation, run by `run`.
+    pub fn body_on<const D: usize, R: Run<D> + 'static>(
+        &self,
+        form: Form,
+        points: &[Point<D>],
+        run: impl FnOnce(Particles<D>) -> R,
+    ) -> Box<dyn Solver> {
+        let (m, all) = (self.moduli, |_| self.moduli);
+        let (t, u) = (self.total_options(D), self.updated_options(D));
+        match form {
+            Form::HourglassFree => {
+                Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run))
+            }
+            Form::TotalNested => {
+                Box::new(simulation::total(points, (self.total_nested(D), m), t, run))
+            }
+            Form::NonHourglass => {
+                Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
+            }
+            Form::UpdatedNested => {
+                Box::new(simulation::updated(points, (self.updated_nested(), &all), u, run))
+            }
+        }
+    }
+
+    /// Bodies of any formulation.
+    pub fn body<const D: usize>(&self, form: Form, points: &[Point<D>]) -> Box<dyn Solver> {
+        self.body_on(form, points, Cpu::new)
+    }
+}
+
+/// The clock of a simulation for one solver, whose concrete type a test wants to keep.
+pub struct Clock {
+    /// Time, s.
+    pub time: f64,
+    /// The step that comes next, s.
+    pub dt: f64,
+}
+
+impl Clock {
+    pub fn start(solver: &mut (impl Solver + ?Sized)) -> Result<Self, Diverged> {
+        solver.start()?;
+        let dt = solver.stable_step();
+        solver.begin(dt);
+        Ok(Self { time: 0.0, dt })
+    }
+
+    pub fn step(&mut self, solver: &mut (impl Solver + ?Sized)) -> Result<(), Diverged> {
+        let now = Now { t: self.time, dt: self.dt };
+        solver.advance(now)?;
+        let next = solver.stable_step();
+        solver.finish(now, next)?;
+        self.time += now.dt;
+        self.dt = next;
+        Ok(())
+    }
+
+    pub fn steps(&mut self, solver: &mut (impl Solver + ?Sized), n: usize) {
+        for _ in 0..n {
+            self.step(solver).expect("stable");
+        }
+    }
+}
+
+/// A vector field in the order of the points.
+pub fn vectors(solver: &(impl Solver + ?Sized), field: Quantity) -> Vec<[f64; 3]> {
+    let mut out = vec![[0.0; 3]; solver.len()];
+    for (place, &id) in solver.ids().iter().enumerate() {
+        out[id as usize] = solver.read(field, place);
+    }
+    out
+}
+
+/// Length of a vector.
+pub fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+/// The longest vector of a field.
+pub fn largest(solver: &(impl Solver + ?Sized), field: Quantity) -> f64 {
+    vectors(solver, field).into_iter().map(length).fold(0.0, f64::max)
+}
+
+/// A tensor field at one place.
+pub fn tensor<const D: usize>(p: &Particles<D>, field: Quantity, place: usize) -> Tensor<f64, D> {
+    Tensor::from_fn(|i, j| p.column(field, i * D + j)[place])
+}
+
+/// Frobenius norm.
+pub fn size<const D: usize>(t: Tensor<f64, D>) -> f64 {
+    t.double_dot(t).sqrt()
+}
+
+/// Sets a vector field from the reference position.
+pub fn set<const D: usize>(
+    p: &mut Particles<D>,
+    field: Quantity,
+    value: impl Fn(taut::math::Vector<f64, D>) -> taut::math::Vector<f64, D>,
+) {
+    for place in 0..p.len() {
+        let x = p.vector_at(Quantity::ReferencePosition, place);
+        p.set_vector(field, place, value(x));
+    }
+}
