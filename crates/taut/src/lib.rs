@@ -6,6 +6,7 @@
 pub mod math;
 #[macro_use]
 pub mod field;
+pub mod correction;
 pub mod diagnostics;
 pub mod formulation;
 pub mod integrator;

@@ -29,16 +29,14 @@ impl MaterialPoint {
         if near.is_empty() {
             return None;
         }
-        let mean =
-            near.iter().fold(Vector::zero(), |m, (_, d, w)| m + d.times(w / total));
+        let mean = near.iter().fold(Vector::zero(), |m, (_, d, w)| m + d.times(w / total));
         let spread = near.iter().fold(Tensor::zero(), |s: Tensor<f64, D>, (_, d, w)| {
             s + (*d - mean).outer(*d - mean).times(w / total)
         });
         // The least singular spread of a lattice neighbourhood is about 0.05 per axis.
         let regular = spread.det() > 1e-8;
         let slope = if regular { spread.inverse().mul_vector(-mean) } else { Vector::zero() };
-        let weights =
-            near.iter().map(|(i, d, w)| (*i, w / total * (1.0 + slope.dot(*d - mean)))).collect();
+        let weights = near.iter().map(|(i, d, w)| (*i, w / total * (1.0 + slope.dot(*d - mean)))).collect();
         Some(Self { weights })
     }
 

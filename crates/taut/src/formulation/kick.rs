@@ -44,6 +44,11 @@ impl<S: Real, const D: usize> Mover<S, D> {
         });
         let mean = (self.v + v).times(S::of(0.5));
         let push = (v - self.v).plus(-now.dt, internal);
-        Kicked { v, a: Vector::from_fn(|i| a[i] * self.free[i]), mean, external_work: self.m * push.dot(mean) }
+        Kicked {
+            v,
+            a: Vector::from_fn(|i| a[i] * self.free[i]),
+            mean,
+            external_work: self.m * push.dot(mean),
+        }
     }
 }

@@ -107,7 +107,9 @@ impl Cause {
                 "particles were pressed together or torn apart: with ul-nested this is tensile instability, \
                  otherwise try a smaller [time] cfl or a slower impact"
             }
-            Self::Speed => "energy appeared from nowhere: the time step is too long; try a smaller [time] cfl",
+            Self::Speed => {
+                "energy appeared from nowhere: the time step is too long; try a smaller [time] cfl"
+            }
         }
     }
 }

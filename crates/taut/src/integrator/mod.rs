@@ -1,9 +1,11 @@
 //! Time integration: position Verlet for both families, and the time steps they may take.
 
 mod limits;
+mod solver;
 mod total;
 mod updated;
 
 pub use limits::{Cause, Diverged, Limits};
+pub use solver::Solver;
 pub use total::{Total, TotalOptions, WaveSpeed};
 pub use updated::{Stepping, Updated, UpdatedOptions};

@@ -1,12 +1,12 @@
 //! Position Verlet for a total Lagrangian body (TL section 3.4).
 
+use super::Solver;
 use super::limits::{Cause, Diverged, Limits, culprit};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::pass::Now;
 use crate::run::{Among, Relist, Run};
-use crate::simulation::Solver;
 
 /// Which wave speed the time step uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -126,7 +126,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         };
         if self.run.relist(&relist).is_err() {
             let wrong = |_: usize, x: f64| !x.is_finite();
-            let found = culprit(self.run.particles(), &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
+            let found =
+                culprit(self.run.particles(), &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
             return found.map_or(Ok(()), Err);
         }
         for i in 0..D {

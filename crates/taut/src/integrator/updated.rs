@@ -1,5 +1,6 @@
 //! Position Verlet with dual-criteria time stepping for updated Lagrangian bodies (UL section 5).
 
+use super::Solver;
 use super::limits::{Cause, Diverged, Limits, culprit};
 use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
@@ -7,7 +8,6 @@ use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::pass::Now;
 use crate::run::{Among, Relist, Run};
-use crate::simulation::Solver;
 
 /// When the configuration (neighbours, kernel, volumes) is made anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +82,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         self.left = match o.stepping {
             Stepping::Single => 0.0,
             Stepping::Dual => {
-                o.advection_cfl * o.kernel.h() / self.limits.speed.max(o.reference_speed).max(f64::MIN_POSITIVE)
+                o.advection_cfl * o.kernel.h()
+                    / self.limits.speed.max(o.reference_speed).max(f64::MIN_POSITIVE)
             }
         };
         self.rebuilds += 1;

@@ -122,10 +122,8 @@ fn the_papers_plane_has_its_own_stiffness_but_a_consistent_energy() {
 
 fn split_adds_up(m: &impl PairShear) {
     let parts = m.split(F3, 1.0);
-    let rebuilt = F3
-        .mul(F3.transpose())
-        .times(parts.pair)
-        .plus_diagonal(parts.volumetric - parts.pair * parts.ratio);
+    let rebuilt =
+        F3.mul(F3.transpose()).times(parts.pair).plus_diagonal(parts.volumetric - parts.pair * parts.ratio);
     assert!(size(rebuilt - m.kirchhoff(F3)) < 1e-14, "pair part and the rest give tau");
     let rest = m.split(Tensor::<f64, 3>::diagonal(1.0), 1.07);
     assert_eq!((rest.volumetric, rest.ratio), (0.0, 1.0), "exactly balanced at rest");

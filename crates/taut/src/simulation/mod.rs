@@ -6,55 +6,10 @@ mod snapshot;
 pub use particles::{Point, total, updated};
 pub use snapshot::{Snapshot, Totals};
 
-use crate::field::Quantity;
-use crate::formulation::State;
+pub use crate::integrator::Solver;
+
 use crate::integrator::Diverged;
 use crate::pass::Now;
-
-/// Bodies that one formulation advances: one virtual call for each half of a step.
-pub trait Solver: Send {
-    /// 2 or 3.
-    fn dimension(&self) -> usize;
-    /// How many particles.
-    fn len(&self) -> usize;
-    /// Whether there is none.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-    /// The id of the particle stored at each place.
-    fn ids(&self) -> &[u32];
-    /// Mean number of neighbours.
-    fn neighbours(&self) -> f64;
-
-    /// Makes lists and first rates.
-    ///
-    /// # Errors
-    /// If the initial state is not finite.
-    fn start(&mut self) -> Result<(), Diverged>;
-    /// Moves what runs half a step ahead, before the first step `dt`.
-    fn begin(&mut self, dt: f64);
-    /// The longest stable step now, s.
-    fn stable_step(&self) -> f64;
-    /// The step up to where the next one can be known.
-    ///
-    /// # Errors
-    /// If the state has left its bounds.
-    fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged>;
-    /// The rest of the step, when the next one is known.
-    ///
-    /// # Errors
-    /// If the state has left its bounds.
-    fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
-
-    /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
-    fn read(&self, field: Quantity, place: usize) -> [f64; 3];
-    /// Sets a vector field of the particle stored at `place`.
-    fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]);
-    /// A scalar field of the particle stored at `place`.
-    fn scalar(&self, field: Quantity, place: usize) -> f64;
-    /// Stress and energy of the particle stored at `place`.
-    fn state(&self, place: usize) -> State;
-}
 
 /// Something outside that acts on the bodies before every step: prescribed motion, body force in time.
 pub trait Drive: Send {

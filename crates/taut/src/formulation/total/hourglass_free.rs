@@ -68,7 +68,12 @@ impl<M: PairShear, const D: usize> Stress<D> for HourglassFree<M> {
 
     /// Q = [volumetric - s ratio] F^-T + tau_d F^-T + s 1, and s.
     #[inline(always)]
-    fn hand_over<S: Real>(&self, f: Tensor<S, D>, damping: Tensor<S, D>, _: Tensor<S, D>) -> (Tensor<S, D>, S) {
+    fn hand_over<S: Real>(
+        &self,
+        f: Tensor<S, D>,
+        damping: Tensor<S, D>,
+        _: Tensor<S, D>,
+    ) -> (Tensor<S, D>, S) {
         let split = self.solid.material.split(f, self.zeta);
         let reduced = damping.plus_diagonal(split.volumetric - split.pair * split.ratio);
         (reduced.mul(f.inverse().transpose()).plus_diagonal(split.pair), split.pair)

@@ -8,7 +8,6 @@ mod reference;
 pub use hourglass_free::HourglassFree;
 pub use motion::Stress;
 pub use nested::Nested;
-pub(crate) use reference::inverse_or_unit;
 
 use super::State;
 use crate::field::Quantity;

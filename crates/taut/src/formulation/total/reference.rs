@@ -1,7 +1,8 @@
 //! The correction matrix, computed once from the reference configuration.
 
+use crate::correction::inverse_or_unit;
 use crate::field::Of;
-use crate::math::{Real, Tensor};
+use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
 
 record! {
@@ -44,13 +45,4 @@ impl<const D: usize> Update<D> for Invert {
     fn at<S: Real>(&self, sum: &Moment<S, D>, (): &(), _: &Now<S>) -> Of<Self::Writes, S, D> {
         Corrected { b: inverse_or_unit(sum.m) }
     }
-}
-
-/// The inverse of a moment matrix, or the unit tensor where its determinant is below 1e-6 of what a full
-/// neighbourhood has (1).
-#[inline(always)]
-pub fn inverse_or_unit<S: Real, const D: usize>(m: Tensor<S, D>) -> Tensor<S, D> {
-    let regular = S::of(1e-6).lt(m.det().abs());
-    let inverse = m.inverse();
-    Tensor::from_fn(|i, j| S::select(regular, inverse[i][j], S::of(f64::from(u8::from(i == j)))))
 }

@@ -1,8 +1,8 @@
 //! Passes shared by the updated Lagrangian formulations: drift and correction matrix.
 
 use super::same_body;
+use crate::correction::inverse_or_unit;
 use crate::field::Of;
-use crate::formulation::total::inverse_or_unit;
 use crate::math::{Real, Tensor};
 use crate::pass::{Now, Pair, PairSum, Update};
 
