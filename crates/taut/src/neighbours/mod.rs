@@ -7,6 +7,7 @@
 mod adjacency;
 mod error;
 mod grid;
+mod lattice;
 mod order;
 mod search;
 mod trivial;
@@ -19,6 +20,7 @@ mod tests;
 pub use adjacency::Adjacency;
 pub use error::{SearchError, check_positions};
 pub use grid::{CellGrid, Near};
+pub use lattice::Lattice;
 pub use order::hilbert_order;
 pub use search::Search;
 pub use trivial::trivial_pairs;

@@ -39,7 +39,7 @@ impl<const D: usize> Serial<D> {
 
     fn read<R: Record<D>>(&self, a: usize) -> R::Of<f64> {
         let mut row = vec![0.0; R::WORDS];
-        self.particles.each_column::<R>(|k, column| row[k] = self.particles.columns()[column][a]);
+        self.particles.each_column::<R>(|k, column| row[k] = self.particles.nth(column)[a]);
         R::read(&Row(&mut row))
     }
 
@@ -49,7 +49,7 @@ impl<const D: usize> Serial<D> {
         let mut places = Vec::new();
         self.particles.each_column::<R>(|k, column| places.push((k, column)));
         for (k, column) in places {
-            self.particles.columns_mut()[column][a] = row[k];
+            self.particles.nth_mut(column)[a] = row[k];
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::formulation::Formulation;
 use crate::integrator::{Total, TotalOptions, Updated, UpdatedOptions};
 use crate::material::Moduli;
 use crate::math::Vector;
-use crate::neighbours::hilbert_order;
+use crate::neighbours::{Lattice, hilbert_order};
 use crate::particles::Particles;
 use crate::run::Run;
 
@@ -65,6 +65,15 @@ fn sort<const D: usize>(p: &mut Particles<D>) {
     }
 }
 
+/// Puts particles that stand on a lattice in rows along its longest axis, others in the order of a space-filling curve.
+fn sort_rows<const D: usize>(p: &mut Particles<D>) {
+    let spacing = p.column(Quantity::Volume, 0).first().map_or(0.0, |v| v.powf(1.0 / D as f64));
+    match Lattice::detect(p.vector(Quantity::ReferencePosition), spacing) {
+        Ok(Some(lattice)) => p.reorder(&lattice.rows()),
+        _ => sort(p),
+    }
+}
+
 /// A total Lagrangian body; ids count the points.
 pub fn total<const D: usize, F: Formulation<D>, R: Run<D>>(
     points: &[Point<D>],
@@ -73,7 +82,7 @@ pub fn total<const D: usize, F: Formulation<D>, R: Run<D>>(
     run: impl FnOnce(Particles<D>) -> R,
 ) -> Total<D, F, R> {
     let mut p = particles(points, F::FIELDS, |_| moduli);
-    sort(&mut p);
+    sort_rows(&mut p);
     Total::new(formulation, run(p), options)
 }
 

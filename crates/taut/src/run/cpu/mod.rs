@@ -6,20 +6,25 @@
 
 mod list;
 mod places;
+mod stencil;
 mod walk;
 
 use super::{Relist, Run};
-use crate::field::Quantity;
-use crate::neighbours::{Adjacency, Search, SearchError};
+use crate::field::{Quantity, Record};
+use crate::neighbours::{Adjacency, Lattice, Search, SearchError};
 use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
 use list::PairBlocks;
 use places::Places;
 use rayon::prelude::*;
+use stencil::Stencil;
 use walk::{Chunk, Walk};
 
 /// Particles that one thread takes at a time.
 const CHUNK: usize = 128;
+
+/// Blocks of a stencil that one thread takes at a time.
+const BLOCKS: usize = 32;
 
 /// The instruction set that the lanes use, chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +66,7 @@ pub struct Cpu<const D: usize> {
     search: Search<D>,
     adjacency: Adjacency,
     blocks: PairBlocks<D>,
+    stencil: Option<Stencil<D>>,
     bodies: Vec<u32>,
     records: Vec<f64>,
     partial: Vec<f64>,
@@ -82,6 +88,7 @@ impl<const D: usize> Cpu<D> {
             search: Search::new(),
             adjacency: Adjacency::default(),
             blocks: PairBlocks::default(),
+            stencil: None,
             bodies: Vec::new(),
             records: Vec::new(),
             partial: Vec::new(),
@@ -92,11 +99,16 @@ impl<const D: usize> Cpu<D> {
         self.particles.len().div_ceil(CHUNK)
     }
 
-    /// Runs `walk` over every chunk, in parallel, with the chosen lanes.
+    /// Runs `walk` over all particles.
     fn run(&self, walk: &(impl Walk + Sync)) {
-        let (len, set) = (self.particles.len(), self.set);
-        (0..self.chunks()).into_par_iter().for_each(|c| {
-            let chunk = Chunk { index: c, first: c * CHUNK, end: len.min((c + 1) * CHUNK) };
+        self.cut(walk, self.particles.len(), CHUNK);
+    }
+
+    /// Runs `walk` over `0..len` in chunks, in parallel, with the chosen lanes.
+    fn cut(&self, walk: &(impl Walk + Sync), len: usize, size: usize) {
+        let set = self.set;
+        (0..len.div_ceil(size)).into_par_iter().for_each(|c| {
+            let chunk = Chunk { index: c, first: c * size, end: len.min((c + 1) * size) };
             match set {
                 InstructionSet::Plain => walk::plain(walk, &chunk),
                 // SAFETY: this variant is only chosen where the machine has AVX2 and FMA.
@@ -105,36 +117,23 @@ impl<const D: usize> Cpu<D> {
             }
         });
     }
-}
 
-impl<const D: usize> Run<D> for Cpu<D> {
-    fn particles(&self) -> &Particles<D> {
-        &self.particles
-    }
-
-    fn particles_mut(&mut self) -> &mut Particles<D> {
-        &mut self.particles
-    }
-
-    fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {
-        let x = self.particles.vector(how.positions);
-        let radius = how.kernel.support();
-        let same = (how.among == super::Among::SameBody).then(|| {
-            self.bodies.clear();
-            self.bodies.extend(self.particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
-            self.bodies.as_slice()
-        });
-        self.search.pairs(x, radius, same, &mut self.adjacency)?;
+    /// The stencil of the particles, if they stand on a lattice, row by row, and all have the same volume.
+    fn lattice(&self, how: &Relist) -> Result<Option<Stencil<D>>, SearchError> {
         let volume = self.particles.column(Quantity::Volume, 0);
-        self.blocks.build(&self.adjacency, x, volume, &how.kernel);
-        Ok(())
+        let equal = volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
+        let one = self.bodies.iter().all(|&b| b == self.bodies[0]);
+        if how.positions != Quantity::ReferencePosition || !equal || !one {
+            return Ok(None);
+        }
+        let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
+        let lattice = Lattice::detect(self.particles.vector(how.positions), spacing)?;
+        let stored = lattice.filter(|l| l.rows().iter().enumerate().all(|(i, &a)| i == a as usize));
+        Ok(stored.map(|l| Stencil::new(&l, volume[0], &how.kernel)))
     }
 
-    fn adjacency(&self) -> &Adjacency {
-        &self.adjacency
-    }
-
-    fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
+    /// The pair loop over packed records and a list.
+    fn listed<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
         let own = Places::of::<P::Reads, D>(&mut self.particles);
         let stride = own.len().next_multiple_of(4);
         let len = self.particles.len();
@@ -151,6 +150,78 @@ impl<const D: usize> Run<D> for Cpu<D> {
         let writes = Places::of::<U::Writes, D>(&mut self.particles);
         let (records, blocks) = (&self.records[..len * stride], &self.blocks);
         self.run(&walk::Pairs { sum, then, reads, writes, records, stride, blocks, now });
+    }
+
+    /// The pair loop over a stencil. What the sum reads of neighbours must not change under it: if the update writes it, the sum
+    /// reads a copy.
+    fn stencilled<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(
+        &mut self,
+        stencil: &Stencil<D>,
+        (sum, then): (&P, &U),
+        now: Now<f64>,
+    ) {
+        let mut own = Places::of::<P::Reads, D>(&mut self.particles);
+        let reads = Places::of::<U::Reads, D>(&mut self.particles);
+        let writes = Places::of::<U::Writes, D>(&mut self.particles);
+        if P::Reads::FIELDS.iter().any(|field| U::Writes::FIELDS.contains(field)) {
+            own = self.copied(&own);
+        }
+        let walk = walk::Stencils { sum, then, own, reads, writes, stencil, now };
+        self.cut(&walk, stencil.blocks.len(), BLOCKS);
+    }
+
+    /// A copy of a record's columns.
+    fn copied(&mut self, own: &Places) -> Places {
+        let len = self.particles.len();
+        let stride = len + 48;
+        self.records.resize(self.records.len().max(own.len() * stride + 16), 0.0);
+        for k in 0..own.len() {
+            // SAFETY: columns are `len` long and nobody writes them here.
+            let column = unsafe { own.column(k, len) };
+            self.records[8 + k * stride..8 + k * stride + len].copy_from_slice(column);
+        }
+        // SAFETY: the buffer was made for just these columns, with room before and after.
+        unsafe { own.elsewhere(self.records.as_mut_ptr().add(8), stride) }
+    }
+}
+
+impl<const D: usize> Run<D> for Cpu<D> {
+    fn particles(&self) -> &Particles<D> {
+        &self.particles
+    }
+
+    fn particles_mut(&mut self) -> &mut Particles<D> {
+        &mut self.particles
+    }
+
+    fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {
+        let x = self.particles.vector(how.positions);
+        let radius = how.kernel.support();
+        self.bodies.clear();
+        self.bodies.extend(self.particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
+        let same = (how.among == super::Among::SameBody).then_some(self.bodies.as_slice());
+        self.search.pairs(x, radius, same, &mut self.adjacency)?;
+        self.stencil = self.lattice(how)?;
+        if self.stencil.is_none() {
+            let x = self.particles.vector(how.positions);
+            let volume = self.particles.column(Quantity::Volume, 0);
+            self.blocks.build(&self.adjacency, x, volume, &how.kernel);
+        }
+        Ok(())
+    }
+
+    fn adjacency(&self) -> &Adjacency {
+        &self.adjacency
+    }
+
+    fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
+        match self.stencil.take() {
+            Some(stencil) => {
+                self.stencilled(&stencil, (sum, then), now);
+                self.stencil = Some(stencil);
+            }
+            None => self.listed(sum, then, now),
+        }
     }
 
     fn each<U: Update<D, Sum = ()>>(&mut self, update: &U, now: Now<f64>) {

@@ -44,7 +44,7 @@ impl Places {
         particles.each_column::<R>(|k, column| at[k] = column);
         let mut columns = [Shared(std::ptr::null_mut()); MAX_WORDS];
         for k in 0..R::WORDS {
-            columns[k] = Shared::new(&mut particles.columns_mut()[at[k]]);
+            columns[k] = Shared(particles.nth_ptr(at[k]));
         }
         Self { columns, len: R::WORDS }
     }
@@ -63,6 +63,58 @@ impl Places {
         for k in 0..self.len.min(row.len()) {
             // SAFETY: the caller's promise.
             row[k] = unsafe { self.columns[k].0.add(a).read() };
+        }
+    }
+}
+
+impl Places {
+    /// The same record elsewhere: column `k` starts at `first + k * stride` of a buffer.
+    ///
+    /// # Safety
+    /// The buffer holds that many columns, with room for lanes before and after each.
+    pub unsafe fn elsewhere(&self, first: *mut f64, stride: usize) -> Self {
+        let mut moved = *self;
+        for k in 0..self.len {
+            // SAFETY: the caller's promise.
+            moved.columns[k] = Shared(unsafe { first.add(k * stride) });
+        }
+        moved
+    }
+
+    /// Column `k` of `len` particles.
+    ///
+    /// # Safety
+    /// The column is that long, and nobody writes it meanwhile.
+    pub unsafe fn column(&self, k: usize, len: usize) -> &[f64] {
+        // SAFETY: the caller's promise.
+        unsafe { std::slice::from_raw_parts(self.columns[k].0, len) }
+    }
+}
+
+/// Four consecutive particles, of which only the first few belong to this block: the others are neither read nor written.
+pub struct Some4<'a>(pub &'a Places, pub usize, pub usize);
+
+// SAFETY: as below.
+impl<V: Lanes> Source<V> for Some4<'_> {
+    #[inline(always)]
+    fn get(&self, k: usize) -> V {
+        unsafe {
+            let first = self.0.columns.get_unchecked(k).0.add(self.1);
+            let lane = |l: usize| first.add(if l < self.2 { l } else { 0 }).read();
+            V::load([lane(0), lane(1), lane(2), lane(3)].as_ptr())
+        }
+    }
+}
+impl<V: Lanes> Sink<V> for Some4<'_> {
+    #[inline(always)]
+    fn put(&mut self, k: usize, x: V) {
+        let mut lanes = [0.0; 4];
+        unsafe {
+            x.store(lanes.as_mut_ptr());
+            let first = self.0.columns.get_unchecked(k).0.add(self.1);
+            for (l, &value) in lanes.iter().enumerate().take(self.2) {
+                first.add(l).write(value);
+            }
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The loops over a chunk of particles, generic in the lanes, and their entry points for each instruction set.
 
 use super::list::PairBlocks;
-use super::places::{Four, One, Places, Shared};
-use crate::field::{Record, Sink, Source};
+use super::places::{Four, One, Places, Shared, Some4};
+use super::stencil::{Block, Stencil};
+use crate::field::{Of, Record, Sink, Source};
 use crate::math::{Lanes, Plain4};
 use crate::pass::{Now, PairSum, Reduce, Update};
 use crate::run::MAX_WORDS;
@@ -156,6 +157,94 @@ impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Walk for Pairs<
             let sum = P::Adds::read::<f64>(&SumsOfOne(&sums));
             let own = U::Reads::read::<f64>(&One(&self.reads, a));
             U::Writes::write(self.then.at(&sum, &own, &self.now), &mut One(&self.writes, a));
+        }
+    }
+}
+
+/// A sum over the neighbours of lattice-born particles and the update that follows it; a chunk counts blocks.
+pub struct Stencils<'a, P, U, const D: usize> {
+    pub sum: &'a P,
+    pub then: &'a U,
+    /// Where the sum reads; nobody writes there meanwhile.
+    pub own: Places,
+    pub reads: Places,
+    pub writes: Places,
+    pub stencil: &'a Stencil<D>,
+    pub now: Now<f64>,
+}
+
+/// What a block carries through its entries.
+struct Running<A, S> {
+    a: A,
+    sum: S,
+}
+
+impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Stencils<'_, P, U, D> {
+    /// Many numbers in, few out (forces from stress): weight by weight, because then only the numbers that one weight needs are
+    /// loaded. Few in, many out (gradients): the whole pair at once, leaving out its zeros.
+    const WEIGHT_BY_WEIGHT: bool = P::Reads::WORDS > 2 * P::Adds::WORDS;
+
+    #[inline(always)]
+    fn part<V: Lanes, const M: u8>(
+        &self,
+        block: &Block,
+        run: &mut Running<Of<P::Reads, V, D>, Of<P::Adds, V, D>>,
+        now: &Now<V>,
+    ) {
+        let own = &self.own;
+        let (full, some) = self.stencil.lists::<M>(block);
+        let at = |delta: i32| (block.first as i32 + delta) as usize;
+        for entry in full {
+            let b = P::Reads::read::<V>(&Four(own, at(entry.delta)));
+            self.sum.add(&mut run.sum, (&run.a, &b), &self.stencil.pair::<V, M>(entry), now);
+        }
+        for entry in some {
+            let b = P::Reads::read::<V>(&Four(own, at(entry.delta)));
+            self.sum.add(&mut run.sum, (&run.a, &b), &self.stencil.masked::<V, M>(entry), now);
+        }
+    }
+
+    #[inline(always)]
+    fn gather<V: Lanes>(&self, block: &Block, now: &Now<V>) -> Of<P::Adds, V, D> {
+        let a = P::Reads::read::<V>(&Four(&self.own, block.first as usize));
+        let mut run = Running { a, sum: P::Adds::nought::<V>() };
+        if Self::WEIGHT_BY_WEIGHT {
+            self.part::<V, 1>(block, &mut run, now);
+            self.part::<V, 2>(block, &mut run, now);
+            if D == 3 {
+                self.part::<V, 4>(block, &mut run, now);
+            }
+            self.part::<V, 8>(block, &mut run, now);
+        } else {
+            self.part::<V, 9>(block, &mut run, now);
+            self.part::<V, 10>(block, &mut run, now);
+            self.part::<V, 11>(block, &mut run, now);
+            if D == 3 {
+                self.part::<V, 12>(block, &mut run, now);
+                self.part::<V, 13>(block, &mut run, now);
+                self.part::<V, 14>(block, &mut run, now);
+                self.part::<V, 15>(block, &mut run, now);
+            }
+        }
+        run.sum
+    }
+}
+
+impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Walk for Stencils<'_, P, U, D> {
+    #[inline(always)]
+    fn chunk<V: Lanes>(&self, chunk: &Chunk) {
+        let now = self.now.cast::<V>();
+        for block in &self.stencil.blocks[chunk.first..chunk.end] {
+            let sum = self.gather(block, &now);
+            let first = block.first as usize;
+            if block.active == 4 {
+                let own = U::Reads::read::<V>(&Four(&self.reads, first));
+                U::Writes::write(self.then.at(&sum, &own, &now), &mut Four(&self.writes, first));
+            } else {
+                let active = usize::from(block.active);
+                let own = U::Reads::read::<V>(&Some4(&self.reads, first, active));
+                U::Writes::write(self.then.at(&sum, &own, &now), &mut Some4(&self.writes, first, active));
+            }
         }
     }
 }
