@@ -103,6 +103,11 @@ impl Lanes for F64x4 {
         Self(unsafe { _mm256_loadu_pd(from) })
     }
     #[inline(always)]
+    unsafe fn load_single(from: *const f32) -> Self {
+        // SAFETY: the caller vouches for four floats.
+        Self(unsafe { _mm256_cvtps_pd(_mm_loadu_ps(from)) })
+    }
+    #[inline(always)]
     unsafe fn store(self, to: *mut f64) {
         // SAFETY: the caller vouches for four doubles.
         unsafe { _mm256_storeu_pd(to, self.0) }

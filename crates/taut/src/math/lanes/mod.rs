@@ -18,6 +18,12 @@ pub trait Lanes: Real {
     /// `from` points at four readable doubles.
     unsafe fn load(from: *const f64) -> Self;
 
+    /// Reads four consecutive numbers of single precision.
+    ///
+    /// # Safety
+    /// `from` points at four readable floats.
+    unsafe fn load_single(from: *const f32) -> Self;
+
     /// Writes four consecutive numbers.
     ///
     /// # Safety
@@ -69,6 +75,9 @@ mod tests {
         each("min", y.min(x), &|a, _| a);
         each("max", y.max(x), &|_, b| b);
         each("select", V::select(x.lt(V::of(0.6)), x, y), &|a, b| if a < 0.6 { a } else { b });
+        let single: Vec<f32> = (0..8u8).map(|i| f32::from(i) * 0.25).collect();
+        // SAFETY: eight floats behind the pointer.
+        assert_eq!(lane(unsafe { V::load_single(single.as_ptr().add(1)) }), [0.25, 0.5, 0.75, 1.0]);
         assert!((x.total() - a[..4].iter().sum::<f64>()).abs() < 1e-15);
         // SAFETY: each address is followed by at least four doubles.
         let t = unsafe { V::transposed([0, 2, 4, 6].map(|o| a.as_ptr().add(o))) };

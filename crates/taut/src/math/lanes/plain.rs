@@ -99,6 +99,11 @@ impl Lanes for Plain4 {
         Self(unsafe { from.cast::<[f64; 4]>().read_unaligned() })
     }
     #[inline(always)]
+    unsafe fn load_single(from: *const f32) -> Self {
+        // SAFETY: the caller vouches for four floats.
+        Self(unsafe { from.cast::<[f32; 4]>().read_unaligned() }.map(f64::from))
+    }
+    #[inline(always)]
     unsafe fn store(self, to: *mut f64) {
         // SAFETY: the caller vouches for four doubles.
         unsafe { to.cast::<[f64; 4]>().write_unaligned(self.0) }

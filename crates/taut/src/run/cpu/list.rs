@@ -1,4 +1,16 @@
 //! The pair list in the shape that lanes want: the neighbours of a particle in blocks of four.
+//!
+//! ```text
+//! particle a:  ids      | b0 b1 b2 b3 | b4 b5 b6 b7 | b8  a  a  a |      the last block is filled up with a itself
+//!              weights  | e_x x4, e_y x4, (e_z x4), W' x4, W'/r x4 | ...      and zero weights
+//! records:     | what the pass reads of particle 0, then V_0, up to a multiple of four numbers | of particle 1 | ...
+//! ```
+//!
+//! Pair data are single precision: the loop is bound by the memory they stream through, and a weight that is 6e-8 off is still a
+//! weight. What must be exact stays exact: e, W' and W'/r are rounded alike for (a, b) and (b, a) and the volume of b comes in
+//! double precision from its record, so that momentum is conserved to rounding; and the correction matrix is made
+//! from the same weights, so that gradients of linear fields are exact. Four whole records are loaded and
+//! transposed in registers: gathers from columns would be slower.
 
 use super::CHUNK;
 use crate::kernel::Kernel;
@@ -6,13 +18,12 @@ use crate::math::{Lanes, Vector};
 use crate::neighbours::Adjacency;
 use crate::pass::{ALL_WEIGHTS, Pair};
 
-/// Blocks of four neighbours. Of each pair are stored the unit vector e, the slope W' V_b, and W' V_b / r: D + 2
-/// numbers, each four times in a row. The last block of a particle is filled up with the particle itself and zeros.
+/// Blocks of four neighbours, with e, W' and W'/r of each.
 #[derive(Debug)]
 pub struct PairBlocks<const D: usize> {
     start: Vec<u32>,
     ids: Vec<[u32; 4]>,
-    weights: Vec<f64>,
+    weights: Vec<f32>,
 }
 
 impl<const D: usize> Default for PairBlocks<D> {
@@ -26,8 +37,8 @@ impl<const D: usize> PairBlocks<D> {
     const WORDS: usize = 4 * (D + 2);
 
     /// Fills the blocks. Buffers grow geometrically and are kept.
-    pub fn build(&mut self, list: &Adjacency, x: [&[f64]; D], volume: &[f64], kernel: &Kernel) {
-        let len = volume.len();
+    pub fn build(&mut self, list: &Adjacency, x: [&[f64]; D], kernel: &Kernel) {
+        let len = list.particles();
         self.start.clear();
         self.start.push(0);
         let mut blocks = 0;
@@ -37,7 +48,7 @@ impl<const D: usize> PairBlocks<D> {
         }
         self.ids.resize(blocks as usize, [0; 4]);
         self.weights.resize(blocks as usize * Self::WORDS, 0.0);
-        let fill = Fill { list, x, volume, kernel, start: &self.start };
+        let fill = Fill { list, x, kernel, start: &self.start };
         fill.all(0, len, &mut self.ids, &mut self.weights);
     }
 
@@ -53,17 +64,17 @@ impl<const D: usize> PairBlocks<D> {
         self.ids[block]
     }
 
-    /// The four pairs of a block.
+    /// The four pairs of a block, given the volumes of the neighbours.
     #[inline(always)]
-    pub fn pair<V: Lanes>(&self, block: usize) -> Pair<V, D, ALL_WEIGHTS> {
+    pub fn pair<V: Lanes>(&self, block: usize, volume: V) -> Pair<V, D, ALL_WEIGHTS> {
         let words = &self.weights[block * Self::WORDS..(block + 1) * Self::WORDS];
         // SAFETY: `words` holds D + 2 times four numbers.
-        let word = |k: usize| unsafe { V::load(words.as_ptr().add(4 * k)) };
+        let word = |k: usize| unsafe { V::load_single(words.as_ptr().add(4 * k)) };
         let mut e = Vector::zero();
         for i in 0..D {
             e.0[i] = word(i);
         }
-        Pair { grad_w: e.times(word(D)), w: word(D + 1), e }
+        Pair { grad_w: e.times(word(D) * volume), w: word(D + 1) * volume, e }
     }
 }
 
@@ -71,14 +82,13 @@ impl<const D: usize> PairBlocks<D> {
 struct Fill<'a, const D: usize> {
     list: &'a Adjacency,
     x: [&'a [f64]; D],
-    volume: &'a [f64],
     kernel: &'a Kernel,
     start: &'a [u32],
 }
 
 impl<const D: usize> Fill<'_, D> {
     /// Fills particles `first..end`, splitting the range (at multiples of the chunk) until it is small.
-    fn all(&self, first: usize, end: usize, ids: &mut [[u32; 4]], weights: &mut [f64]) {
+    fn all(&self, first: usize, end: usize, ids: &mut [[u32; 4]], weights: &mut [f32]) {
         if end - first <= 4 * CHUNK {
             for a in first..end {
                 self.one(a, self.start[first] as usize, (ids, weights));
@@ -92,7 +102,7 @@ impl<const D: usize> Fill<'_, D> {
         rayon::join(|| self.all(first, middle, low, light), || self.all(middle, end, high, heavy));
     }
 
-    fn one(&self, a: usize, base: usize, (ids, weights): (&mut [[u32; 4]], &mut [f64])) {
+    fn one(&self, a: usize, base: usize, (ids, weights): (&mut [[u32; 4]], &mut [f32])) {
         let blocks = self.start[a] as usize - base..self.start[a + 1] as usize - base;
         for (block, four) in blocks.zip(self.list.of(a).chunks(4)) {
             ids[block] = [a as u32; 4];
@@ -102,14 +112,14 @@ impl<const D: usize> Fill<'_, D> {
                 ids[block][l] = b;
                 let x_ab: Vector<f64, D> = Vector::from_fn(|i| self.x[i][a] - self.x[i][b as usize]);
                 let r = x_ab.norm_squared().sqrt();
-                let slope = self.kernel.dw(r) * self.volume[b as usize];
+                let slope = self.kernel.dw(r);
                 // Particles on top of each other have no direction and no force.
                 let inverse = if r > 0.0 { 1.0 / r } else { 0.0 };
                 for i in 0..D {
-                    words[4 * i + l] = x_ab[i] * inverse;
+                    words[4 * i + l] = (x_ab[i] * inverse) as f32;
                 }
-                words[4 * D + l] = slope;
-                words[4 * (D + 1) + l] = slope * inverse;
+                words[4 * D + l] = slope as f32;
+                words[4 * (D + 1) + l] = (slope * inverse) as f32;
             }
         }
     }

@@ -134,7 +134,8 @@ impl<const D: usize> Cpu<D> {
 
     /// The pair loop over packed records and a list.
     fn listed<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
-        let own = Places::of::<P::Reads, D>(&mut self.particles);
+        let own =
+            Places::of::<P::Reads, D>(&mut self.particles).with::<D>(Quantity::Volume, &mut self.particles);
         let stride = own.len().next_multiple_of(4);
         let len = self.particles.len();
         if self.records.len() < len * stride {
@@ -204,8 +205,7 @@ impl<const D: usize> Run<D> for Cpu<D> {
         self.stencil = self.lattice(how)?;
         if self.stencil.is_none() {
             let x = self.particles.vector(how.positions);
-            let volume = self.particles.column(Quantity::Volume, 0);
-            self.blocks.build(&self.adjacency, x, volume, &how.kernel);
+            self.blocks.build(&self.adjacency, x, &how.kernel);
         }
         Ok(())
     }

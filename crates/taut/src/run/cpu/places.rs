@@ -1,6 +1,6 @@
 //! Where the numbers of a record stand in memory, so that chunks can be read and written from several threads.
 
-use crate::field::{Record, Sink, Source};
+use crate::field::{Quantity, Record, Sink, Source};
 use crate::math::Lanes;
 use crate::particles::Particles;
 use crate::run::MAX_WORDS;
@@ -47,6 +47,14 @@ impl Places {
             columns[k] = Shared(particles.nth_ptr(at[k]));
         }
         Self { columns, len: R::WORDS }
+    }
+
+    /// The same with one more scalar at the end.
+    pub fn with<const D: usize>(mut self, field: Quantity, particles: &mut Particles<D>) -> Self {
+        assert!(self.len < MAX_WORDS, "a record of {} numbers is too wide", self.len + 1);
+        self.columns[self.len] = Shared(particles.nth_ptr(particles.place(field)));
+        self.len += 1;
+        self
     }
 
     /// How many numbers.

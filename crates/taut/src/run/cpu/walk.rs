@@ -124,7 +124,7 @@ impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Pairs<'_, P, U,
         for block in self.blocks.of(a) {
             let ids = self.blocks.ids(block);
             let mut words = Words([V::zero(); MAX_WORDS]);
-            for k in (0..P::Reads::WORDS).step_by(4) {
+            for k in (0..P::Reads::WORDS + 1).step_by(4) {
                 // SAFETY: neighbours are particles, and every row is padded to a multiple of four numbers.
                 let four = unsafe {
                     V::transposed(ids.map(|b| self.records.as_ptr().add(b as usize * self.stride + k)))
@@ -132,7 +132,8 @@ impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Pairs<'_, P, U,
                 words.0[k..k + 4].copy_from_slice(&four);
             }
             let other = P::Reads::read::<V>(&words);
-            self.sum.add(&mut sum, (&own, &other), &self.blocks.pair::<V>(block), &now);
+            let pair = self.blocks.pair::<V>(block, words.0[P::Reads::WORDS]);
+            self.sum.add(&mut sum, (&own, &other), &pair, &now);
         }
         sums.lane = lane;
         P::Adds::write(sum, sums);
