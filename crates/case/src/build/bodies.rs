@@ -40,9 +40,9 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
     for (index, body) in case.bodies.iter().enumerate() {
         let mut points = fill(case, index, body)?;
         let updated = body.scheme.formulation.family() == Family::Updated;
-        let shared = groups.iter_mut().find(|g| {
-            updated && g.bodies[0].1.scheme.formulation.family() == Family::Updated
-        });
+        let shared = groups
+            .iter_mut()
+            .find(|g| updated && g.bodies[0].1.scheme.formulation.family() == Family::Updated);
         match shared {
             Some(group) if group.bodies[0].1.scheme.formulation != body.scheme.formulation => {
                 let message = format!(
@@ -50,7 +50,8 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
                     body.name,
                     body.scheme.formulation.name()
                 );
-                let help = format!("the bodies before it use {}", group.bodies[0].1.scheme.formulation.name());
+                let help =
+                    format!("the bodies before it use {}", group.bodies[0].1.scheme.formulation.name());
                 return Err(case.error_at(body.place, message, Some(help)));
             }
             Some(group) => {
@@ -102,7 +103,8 @@ pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<Str
         None,
         &mut list,
     );
-    let overlaps = |(a, p): (usize, &&Point<D>)| list.of(a).iter().any(|&b| points[b as usize].body != p.body);
+    let overlaps =
+        |(a, p): (usize, &&Point<D>)| list.of(a).iter().any(|&b| points[b as usize].body != p.body);
     if found.is_ok() {
         let count = points.iter().enumerate().filter(|&p| overlaps(p)).count();
         if count > 0 {

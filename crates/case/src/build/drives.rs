@@ -69,11 +69,8 @@ fn pull<const D: usize>(
     case: &Case,
     groups: &mut [Group<'_, D>],
 ) -> Result<Vec<(Member, Vec<VectorField>)>, CaseError> {
-    let regions: Vec<Option<Shape>> = case
-        .gravity
-        .iter()
-        .map(|g| g.region.as_ref().map(super::shapes::shape))
-        .collect();
+    let regions: Vec<Option<Shape>> =
+        case.gravity.iter().map(|g| g.region.as_ref().map(super::shapes::shape)).collect();
     let acts = |gravity: &Gravity, region: &Option<Shape>, point: &Point<D>| {
         gravity.body.is_none_or(|b| b as u32 == point.body)
             && region.as_ref().is_none_or(|r| r.contains(padded(point.x)))

@@ -48,7 +48,8 @@ pub fn probes<const D: usize>(
             Some((g, MaterialPoint::new(stored, vector(probe.at), case.spacing)?))
         });
         let (solver, point) = found.ok_or_else(|| {
-            let message = format!("probe `{}` is not in its body: no particle within 2.6 spacings", probe.name);
+            let message =
+                format!("probe `{}` is not in its body: no particle within 2.6 spacings", probe.name);
             let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
             let help = format!("`at` is a point of the undeformed body `{name}`");
             case.error_at(probe.place, message, Some(help))
@@ -102,7 +103,7 @@ impl<const D: usize> Watch for Arrangement<D> {
     fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) -> Result<(), DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
-        let unit = |k: usize| if k % 4 == 0 { 1.0 } else { 0.0 };
+        let unit = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
         out.clear();
         out.extend(self.reference.deformation(x)?.iter().map(|f| {
             let component = |k: usize| if k / 3 < D && k % 3 < D { f[k / 3][k % 3] } else { unit(k) };
@@ -125,9 +126,7 @@ impl<const D: usize> Watch for Arrangement<D> {
 
 impl<const D: usize> Arrangement<D> {
     fn gap(&self) -> Option<f64> {
-        let square = |a: usize, b: usize| -> f64 {
-            self.columns.iter().map(|c| (c[a] - c[b]).powi(2)).sum()
-        };
+        let square = |a: usize, b: usize| -> f64 { self.columns.iter().map(|c| (c[a] - c[b]).powi(2)).sum() };
         let between = |a: usize| {
             let mine = self.body[a];
             self.pairs.of(a).iter().map(|&b| b as usize).filter(move |&b| self.body[b] != mine)

@@ -21,12 +21,8 @@ pub fn shape(spec: &ShapeSpec) -> Shape {
         ShapeSpec::Ring { center, inner, outer } => {
             Shape::Ring { center: *center, inner: *inner, outer: *outer }
         }
-        ShapeSpec::Cylinder { from, to, radius } => {
-            Shape::Cylinder { from: *from, to: *to, radius: *radius }
-        }
-        ShapeSpec::Polygon { points, height } => {
-            Shape::Polygon { points: points.clone(), height: *height }
-        }
+        ShapeSpec::Cylinder { from, to, radius } => Shape::Cylinder { from: *from, to: *to, radius: *radius },
+        ShapeSpec::Polygon { points, height } => Shape::Polygon { points: points.clone(), height: *height },
         ShapeSpec::Union(specs) => Shape::Union(all(specs)),
         ShapeSpec::Intersection(specs) => Shape::Intersection(all(specs)),
         ShapeSpec::Difference(specs) => {

@@ -7,7 +7,8 @@ use taut::simulation::Snapshot;
 /// Makes frames; `deformation` replaces the deformation gradient of particles that carry none.
 pub fn frame(snapshot: &Snapshot, deformation: &[[f64; 9]], spacing: f64, step: u64) -> Frame {
     let n = snapshot.body.len();
-    let own = |i: usize| if snapshot.deformation[i] == [0.0; 9] { deformation[i] } else { snapshot.deformation[i] };
+    let own =
+        |i: usize| if snapshot.deformation[i] == [0.0; 9] { deformation[i] } else { snapshot.deformation[i] };
     let pressure = snapshot.cauchy.iter().map(|s| -(s[0] + s[4] + s[8]) / 3.0).collect();
     let scalar = |q: Quantity, values: Vec<f64>| Array::scalar(q.name(), q.unit(), Values::F64(values));
     let arrays = vec![

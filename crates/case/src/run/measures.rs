@@ -67,15 +67,13 @@ impl Evidence<'_> {
 
 fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
     let end = curve.times.last().copied().unwrap_or(0.0);
-    let short = |what: &str, unit: &str| {
-        Measured::missing(unit, &format!("the run ended at {end} s, before {what}"))
-    };
+    let short =
+        |what: &str, unit: &str| Measured::missing(unit, &format!("the run ended at {end} s, before {what}"));
     let point = |p: Option<Point>, what: &str| {
         p.map_or_else(|| short(what, unit), |p| Measured::value(p.value, unit).at(p.time))
     };
-    let crossing = |n, what: &str| {
-        curve.crossing(n).map_or_else(|| short(what, "s"), |t| Measured::value(t, "s"))
-    };
+    let crossing =
+        |n, what: &str| curve.crossing(n).map_or_else(|| short(what, "s"), |t| Measured::value(t, "s"));
     match *feature {
         Feature::FirstCrossing => crossing(1, "the first zero crossing"),
         Feature::SecondCrossing => crossing(2, "the second zero crossing"),

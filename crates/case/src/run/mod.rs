@@ -1,6 +1,6 @@
 //! Running a case: the only time loop of the project.
 
-mod curves;
+pub mod curves;
 mod error;
 mod frames;
 mod history;

@@ -1,10 +1,10 @@
 //! What a run writes down as it goes.
 
+use super::Observer;
 use super::error::RunError;
 use super::frames::frame;
 use super::history::DisorderHistory;
 use super::measures::{Evidence, Series};
-use super::Observer;
 use crate::Case;
 use crate::build::{Built, ProbePoint, Watch};
 use output::manifest::Machine;
@@ -25,6 +25,7 @@ pub struct Recorder<'a> {
     series: Vec<Series>,
     watch: Box<dyn Watch>,
     disorder: DisorderHistory,
+    energies: Vec<[f64; 4]>,
     snapshot: Snapshot,
     deformation: Vec<[f64; 9]>,
     mass: Vec<f64>,
@@ -55,9 +56,10 @@ impl Contact {
     fn look(&mut self, time: f64, gap: Option<f64>) {
         let Some(gap) = gap.filter(|_| self.time.is_none()) else { return };
         if gap < self.support {
-            self.time = Some(self.last.map_or(time, |(t, before)| {
-                t + (time - t) * (before - self.support) / (before - gap)
-            }));
+            self.time = Some(
+                self.last
+                    .map_or(time, |(t, before)| t + (time - t) * (before - self.support) / (before - gap)),
+            );
         }
         self.last = Some((time, gap));
     }
@@ -88,6 +90,7 @@ impl<'a> Recorder<'a> {
             series: vec![Series::default(); case.probes.len()],
             watch: built.watch,
             disorder: DisorderHistory::default(),
+            energies: Vec::new(),
             snapshot: Snapshot::default(),
             deformation: Vec::new(),
             mass: Vec::new(),
@@ -114,7 +117,11 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes down whatever is due.
-    pub fn after_step(&mut self, simulation: &Simulation, observer: &mut dyn Observer) -> Result<(), RunError> {
+    pub fn after_step(
+        &mut self,
+        simulation: &Simulation,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
         let time = simulation.time();
         for i in 0..self.points.len() {
             if time >= self.due.probes[i] {
@@ -128,7 +135,7 @@ impl<'a> Recorder<'a> {
         }
         if disorder {
             self.due.disorder = later(self.due.disorder, self.case.monitor.interval, time);
-            self.look(time, observer)?;
+            self.look(simulation, observer)?;
         }
         if frame {
             self.due.frame = later(self.due.frame, self.case.time.output, time);
@@ -148,13 +155,16 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn look(&mut self, time: f64, observer: &mut dyn Observer) -> Result<(), RunError> {
+    fn look(&mut self, simulation: &Simulation, observer: &mut dyn Observer) -> Result<(), RunError> {
+        let (time, totals) = (simulation.time(), simulation.totals());
+        self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
         let observed = self.watch.measure(&self.snapshot)?;
         self.contact.look(time, observed.gap);
         let zigzag = observed.disorder.zigzag_rms;
         let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
         if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
-            let warning = format!("disorder: zigzag_rms is {zigzag:.4} at t = {time:.6} s; zero-energy modes grow");
+            let warning =
+                format!("disorder: zigzag_rms is {zigzag:.4} at t = {time:.6} s; zero-energy modes grow");
             observer.warned(&warning);
             self.warnings.push(warning);
         }
@@ -184,7 +194,7 @@ impl<'a> Recorder<'a> {
         let time = simulation.time();
         simulation.snapshot(&mut self.snapshot);
         if time > self.due.framed {
-            self.look(time, observer)?;
+            self.look(simulation, observer)?;
             self.write_frame(simulation.steps(), observer)?;
         }
         let summary = self.summary(simulation, wall);
@@ -210,7 +220,9 @@ impl<'a> Recorder<'a> {
 
     /// Closes the books of a run whose initial state is not admissible.
     pub fn never_started(self, diverged: Diverged) -> Result<RunError, RunError> {
-        Summary { case: self.case.name.clone(), ..Summary::default() }.failed(&diverged).write(self.results)?;
+        Summary { case: self.case.name.clone(), ..Summary::default() }
+            .failed(&diverged)
+            .write(self.results)?;
         Ok(self.stopped(diverged))
     }
 
@@ -244,7 +256,7 @@ impl<'a> Recorder<'a> {
             wall_seconds: wall,
             particle_steps_per_second: n * steps as f64 / wall.max(1e-9),
             threads: rayon::current_num_threads() as u32,
-            energy: energy(&self.start, &end),
+            energy: Energy { history: std::mem::take(&mut self.energies), ..energy(&self.start, &end) },
             momentum: Momentum {
                 linear: Balance::new(self.start.momentum, end.momentum),
                 angular: Balance::new(self.start.angular_momentum, end.angular_momentum),
@@ -273,6 +285,7 @@ fn energy(start: &Totals, end: &Totals) -> Energy {
         dissipated: end.dissipated,
         external_work: end.external_work,
         residual: initial + end.external_work - end.dissipated - at_end,
+        history: Vec::new(),
     }
 }
 

@@ -48,11 +48,7 @@ pub fn estimate(case: &Case) -> Result<Estimate, RunError> {
     }
     let per_step = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
     let steps = (case.time.end / dt).ceil();
-    let neighbours = simulation
-        .solvers()
-        .iter()
-        .map(|s| s.neighbours() * s.len() as f64)
-        .sum::<f64>()
+    let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
     // Of a pair: D + 2 numbers and two indices in the list, one more index for disorder; of a particle: about 110 numbers.
     let pair = 8.0 * (case.dimension as f64 + 2.0) * 1.1 + 12.0;

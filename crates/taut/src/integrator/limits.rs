@@ -140,11 +140,11 @@ pub struct Diverged {
     pub cause: Cause,
 }
 
+/// A test of one field: what it means if a value fails it, and whether it does.
+pub(crate) type Check<'a> = (Quantity, Cause, &'a dyn Fn(usize, f64) -> bool);
+
 /// Finds the first particle (by id) with something wrong in one of the fields; `None` if all is well.
-pub(crate) fn culprit<const D: usize>(
-    p: &Particles<D>,
-    checks: &[(Quantity, Cause, &dyn Fn(usize, f64) -> bool)],
-) -> Option<Diverged> {
+pub(crate) fn culprit<const D: usize>(p: &Particles<D>, checks: &[Check<'_>]) -> Option<Diverged> {
     for &(field, cause, wrong) in checks {
         let words = field.rank().words(D);
         let found = (0..p.len())

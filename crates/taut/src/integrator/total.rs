@@ -69,7 +69,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         }
         let p = self.run.particles();
         let not_finite = |_: usize, x: f64| !x.is_finite();
-        let fast = |_: usize, x: f64| !(x.abs() < bound / (D as f64).sqrt());
+        let fast = |_: usize, x: f64| x.is_nan() || x.abs() >= bound / (D as f64).sqrt();
         let found = culprit(
             p,
             &[

@@ -109,8 +109,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
                 (Quantity::Density, Cause::Density, &|a, x| !(0.1..10.0).contains(&(x / rest[a]))),
                 (Quantity::Velocity, Cause::NotFinite, &not_finite),
                 (Quantity::Acceleration, Cause::NotFinite, &not_finite),
-                (Quantity::Position, Cause::NotFinite, &|_, x| !(x.abs() < 1e150)),
-                (Quantity::Velocity, Cause::Speed, &|_, x| !(x.abs() < bound)),
+                (Quantity::Position, Cause::NotFinite, &|_, x| x.is_nan() || x.abs() >= 1e150),
+                (Quantity::Velocity, Cause::Speed, &|_, x| x.is_nan() || x.abs() >= bound),
             ],
         );
         found.map_or(Ok(()), Err)

@@ -84,6 +84,7 @@ impl<S: Real, const D: usize> Tensor<S, D> {
     /// The product `self . other`.
     #[inline(always)]
     #[must_use]
+    #[allow(clippy::should_implement_trait, reason = "a dot of tensors is spelled out, never `*`")]
     pub fn mul(self, other: Self) -> Self {
         Self::from_fn(|i, j| {
             let mut sum = self[i][0] * other[0][j];

@@ -39,7 +39,7 @@ pub trait PairSum<const D: usize>: Sync {
     fn add<S: Real, const M: u8>(
         &self,
         sum: &mut Of<Self::Adds, S, D>,
-        pair: (&Of<Self::Reads, S, D>, &Of<Self::Reads, S, D>),
+        pair: Both<'_, Self::Reads, S, D>,
         ab: &Pair<S, D, M>,
         now: &Now<S>,
     );
@@ -62,6 +62,9 @@ pub trait Update<const D: usize>: Sync {
         now: &Now<S>,
     ) -> Of<Self::Writes, S, D>;
 }
+
+/// The records of a and b.
+pub type Both<'r, R, S, const D: usize> = (&'r Of<R, S, D>, &'r Of<R, S, D>);
 
 /// How the values of a [`Reduce`] are put together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

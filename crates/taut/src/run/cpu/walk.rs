@@ -180,18 +180,16 @@ struct Running<A, S> {
     sum: S,
 }
 
+type RunningOf<P, V, const D: usize> =
+    Running<Of<<P as PairSum<D>>::Reads, V, D>, Of<<P as PairSum<D>>::Adds, V, D>>;
+
 impl<P: PairSum<D>, U: Update<D, Sum = P::Adds>, const D: usize> Stencils<'_, P, U, D> {
     /// Many numbers in, few out (forces from stress): weight by weight, because then only the numbers that one weight needs are
     /// loaded. Few in, many out (gradients): the whole pair at once, leaving out its zeros.
     const WEIGHT_BY_WEIGHT: bool = P::Reads::WORDS > 2 * P::Adds::WORDS;
 
     #[inline(always)]
-    fn part<V: Lanes, const M: u8>(
-        &self,
-        block: &Block,
-        run: &mut Running<Of<P::Reads, V, D>, Of<P::Adds, V, D>>,
-        now: &Now<V>,
-    ) {
+    fn part<V: Lanes, const M: u8>(&self, block: &Block, run: &mut RunningOf<P, V, D>, now: &Now<V>) {
         let own = &self.own;
         let (full, some) = self.stencil.lists::<M>(block);
         let at = |delta: i32| (block.first as i32 + delta) as usize;
