@@ -19,6 +19,8 @@ pub enum Command {
     List,
     /// Tell everything that can be known without running: particles, memory, time step, run time, warnings
     Check(CaseOptions),
+    /// Run published benchmarks and hold what comes out against the papers
+    Validate(ValidateOptions),
     /// Rebuild pictures and report of a run (later)
     Report {
         /// Result directory
@@ -60,4 +62,24 @@ pub struct RunOptions {
     /// Go on from the last checkpoint (later)
     #[arg(long)]
     pub resume: bool,
+}
+
+/// What to validate, and how.
+#[derive(Debug, Args)]
+pub struct ValidateOptions {
+    /// Benchmarks [default: all]
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// Also the long runs: about an hour
+    #[arg(long)]
+    pub full: bool,
+    /// One JSON array of rows instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Keep the runs, each in DIR/BENCHMARK/RUN [default: they are deleted]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads [default: as many as the particles can use]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
 }

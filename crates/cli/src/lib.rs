@@ -9,6 +9,7 @@ mod list;
 mod pictures;
 mod progress;
 mod run;
+mod validate;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -42,6 +43,7 @@ where
         Command::Run(options) => run::run(&options),
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
+        Command::Validate(options) => validate::validate(&options),
         Command::Report { .. } => {
             Err(Failure::Input("`taut report` comes in a later version; `taut run` already draws the pictures.".into()))
         }

@@ -1,9 +1,7 @@
 //! A hourglass-free body at rest feels nothing: not little, nothing, for any arrangement of particles.
 
-mod common;
-
-use common::points::{block, disordered};
-use common::{Clock, FORMS, Setup, largest};
+use crate::common::points::{block, disordered};
+use crate::common::{Clock, FORMS, Setup, largest};
 use taut::field::Quantity;
 use taut::formulation::total::HourglassFree;
 use taut::material::{NeoHookean, NeoHookeanLog, PairShear, Plane};

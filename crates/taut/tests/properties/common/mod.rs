@@ -5,9 +5,7 @@ pub mod points;
 
 use taut::field::Quantity;
 use taut::formulation::{Formulation, total, updated};
-use taut::integrator::{
-    Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed,
-};
+use taut::integrator::{Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed};
 use taut::kernel::{Kernel, Shape};
 use taut::material::{Moduli, NeoHookean, Plane};
 use taut::math::Tensor;
@@ -20,6 +18,10 @@ use taut::simulation::{self, Point, Solver};
 pub const STILL: Now<f64> = Now { t: 0.0, dt: 0.0 };
 /// A step of one second: a rate integrated over it is the rate itself.
 pub const ONE: Now<f64> = Now { t: 0.0, dt: 1.0 };
+
+/// What the weights of a pair are off where a list holds them: e, W' and W'/r are rounded to single precision, 2^-24 each.
+/// Lattice-born total Lagrangian bodies have no list and no such rounding.
+pub const SINGLE: f64 = 6e-8;
 
 /// Which formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,12 +148,8 @@ impl Setup {
         let (m, all) = (self.moduli, |_| self.moduli);
         let (t, u) = (self.total_options(D), self.updated_options(D));
         match form {
-            Form::HourglassFree => {
-                Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run))
-            }
-            Form::TotalNested => {
-                Box::new(simulation::total(points, (self.total_nested(D), m), t, run))
-            }
+            Form::HourglassFree => Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run)),
+            Form::TotalNested => Box::new(simulation::total(points, (self.total_nested(D), m), t, run)),
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
             }

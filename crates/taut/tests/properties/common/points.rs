@@ -80,3 +80,32 @@ pub fn deep<const D: usize>(x: Vector<f64, D>, n: [usize; D], (dp, layers): (f64
         k >= layers as f64 && k < (n[i] - layers) as f64
     })
 }
+
+/// The plate of the benchmarks (TL section 4.1, UL section 6.1) with `rows` particles over its height of 0.02 m, and its
+/// spacing: a strip 0.2 m long, clamped between four layers of fixed particles, in its first mode with `tip` m/s at the end.
+pub fn plate(rows: usize, tip: f64) -> (Vec<Point<2>>, f64) {
+    let (l, height) = (0.2, 0.02);
+    let dp = height / rows as f64;
+    let (kl, k): (f64, f64) = (1.875, 1.875 / l);
+    let mode = |x: f64| {
+        (kl.sin() + kl.sinh()) * ((k * x).cos() - (k * x).cosh())
+            - (kl.cos() + kl.cosh()) * ((k * x).sin() - (k * x).sinh())
+    };
+    let inside = (0.06 / dp).round() as i64 + 4;
+    let half = rows as i64 / 2 + 4;
+    let mut points = Vec::new();
+    for (j, i) in (-half..half).flat_map(|j| (-inside..(l / dp).round() as i64).map(move |i| (j, i))) {
+        let (x, y) = ((i as f64 + 0.5) * dp, (j as f64 + 0.5) * dp);
+        let outside = y.abs() > 0.5 * height;
+        let mut point = Point::at(Vector([x, y]), dp * dp);
+        if x > 0.0 {
+            point.v = Vector([0.0, tip * mode(x) / mode(l)]);
+        } else if outside || x < -0.06 {
+            point.free = Vector::zero();
+        }
+        if x < 0.0 || !outside {
+            points.push(point);
+        }
+    }
+    (points, dp)
+}

@@ -1,0 +1,18 @@
+//! What the physics must hold, one file for each family of properties, for every formulation and dimension.
+//!
+//! `cargo test -p taut --test properties`, or with the name of a family behind it.
+
+mod common;
+
+mod constraints;
+mod divergence;
+mod energy;
+mod lanes;
+mod momentum;
+mod patch;
+mod plane;
+mod rest;
+mod rigid;
+mod threads;
+mod time_step;
+mod zigzag;

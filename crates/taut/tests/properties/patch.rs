@@ -1,0 +1,128 @@
+//! Linear fields: gradients are exact at every particle, and a homogeneous deformation leaves the inside in balance.
+
+use crate::common::points::{block, deep, disordered};
+use crate::common::{ONE, STILL, Setup, set, size, tensor};
+use taut::field::Quantity;
+use taut::formulation::Formulation;
+use taut::math::{Tensor, Vector};
+use taut::run::Run;
+use taut::simulation::{Point, Solver};
+
+const DP: f64 = 0.002;
+/// B is the inverse of a sum of up to 60 dyads; at a corner of the disordered sets its condition is about 10, so that
+/// 60 eps/2 become a few 1e-14 at worst.
+const EXACT: f64 = 2e-13;
+
+/// A gradient without symmetry, of the size 0.3.
+fn gradient<const D: usize>() -> Tensor<f64, D> {
+    let h = [[0.12, 0.15, -0.05], [-0.08, -0.06, 0.11], [0.07, -0.13, 0.04]];
+    Tensor::from_fn(|i, j| h[i][j])
+}
+
+/// F after the velocity field H X has acted for a second on a total Lagrangian body at rest: 1 + H.
+fn deformation_is_exact<const D: usize>(points: &[Point<D>]) {
+    let setup = Setup::new(DP);
+    let form = setup.hourglass_free(D);
+    let mut body = setup.total(form, points);
+    body.start().expect("finite");
+    let h = gradient::<D>();
+    set(body.run_mut().particles_mut(), Quantity::Velocity, |x| h.mul_vector(x));
+    form.rates(body.run_mut(), ONE);
+    for i in 0..body.len() {
+        let f = tensor(body.run().particles(), Quantity::DeformationGradient, i);
+        let error = size(f - h.plus_diagonal(1.0));
+        assert!(error < EXACT, "particle {i}: {error:e}");
+    }
+}
+
+/// The stress rate of the velocity field H x in a fresh updated Lagrangian body: 2 G dev sym H.
+fn stress_rate_is_exact<const D: usize>(points: &[Point<D>]) {
+    let setup = Setup::new(DP);
+    let form = setup.non_hourglass(D);
+    let mut body = setup.updated(form, points);
+    let h = gradient::<D>();
+    set(body.run_mut().particles_mut(), Quantity::Velocity, |x| h.mul_vector(x));
+    body.start().expect("finite");
+    let strain = h.symmetric();
+    let expected = strain.plus_diagonal(-strain.trace() / 3.0).times(2.0 * setup.moduli.shear);
+    for i in 0..body.len() {
+        let rate = tensor(body.run().particles(), Quantity::ShearStressRate, i);
+        let error = size(rate - expected) / setup.moduli.shear;
+        assert!(error < EXACT, "particle {i}: {error:e}");
+    }
+}
+
+#[test]
+fn gradients_in_the_plane() {
+    for points in [block([9, 8], DP), disordered([12, 9], DP, 0.3)] {
+        deformation_is_exact(&points);
+        stress_rate_is_exact(&points);
+    }
+}
+
+#[test]
+fn gradients_in_space() {
+    for points in [block([6, 5, 5], DP), disordered([7, 6, 6], DP, 0.3)] {
+        deformation_is_exact(&points);
+        stress_rate_is_exact(&points);
+    }
+}
+
+/// Largest accelerations deep inside a lattice and anywhere, in units of what a strain of one makes.
+fn accelerations<const D: usize>(body: &dyn Solver, n: [usize; D], layers: usize) -> (f64, f64) {
+    let scale = Setup::new(DP).acceleration();
+    let (mut inside, mut anywhere) = (0.0f64, 0.0f64);
+    for i in 0..body.len() {
+        let x = body.read(Quantity::ReferencePosition, i);
+        let a = crate::common::length(body.read(Quantity::Acceleration, i)) / scale;
+        anywhere = anywhere.max(a);
+        if deep(Vector::<f64, D>::from_fn(|k| x[k]), n, (DP, layers)) {
+            inside = inside.max(a);
+        }
+    }
+    (inside, anywhere)
+}
+
+/// u = H X, F = 1 + H: the stress is the same everywhere, and inside a lattice the sums of gradients vanish. At the
+/// surface there is traction.
+fn stretched<const D: usize, F: Formulation<D> + Copy>(form: F, n: [usize; D]) {
+    let mut body = Setup::new(DP).total(form, &block(n, DP));
+    body.start().expect("finite");
+    let h = gradient::<D>();
+    set(body.run_mut().particles_mut(), Quantity::Velocity, |x| h.mul_vector(x));
+    form.rates(body.run_mut(), ONE);
+    set(body.run_mut().particles_mut(), Quantity::Velocity, |_| Vector::zero());
+    form.rates(body.run_mut(), STILL);
+    form.accelerate(body.run_mut(), STILL);
+    // Four layers: B is that of the inside for all that an inner particle sees.
+    let (inside, anywhere) = accelerations(&body, n, 4);
+    assert!(inside < 2.0 * EXACT, "{inside:e}");
+    assert!(anywhere > 0.01, "traction: {anywhere}");
+}
+
+#[test]
+fn a_homogeneous_deformation_is_in_balance_inside() {
+    let setup = Setup::new(DP);
+    stretched(setup.hourglass_free(2), [12, 11]);
+    stretched(setup.total_nested(2), [12, 11]);
+    stretched(setup.hourglass_free(3), [10, 10, 9]);
+    stretched(setup.total_nested(3), [10, 10, 9]);
+}
+
+/// Density and shear stress the same everywhere: balance inside, traction at the surface.
+#[test]
+fn a_homogeneous_stress_is_in_balance_inside() {
+    let (setup, n) = (Setup::new(DP), [12, 11]);
+    let form = setup.updated_nested();
+    let mut body = setup.updated(form, &block(n, DP));
+    body.start().expect("finite");
+    let p = body.run_mut().particles_mut();
+    p.column_mut(Quantity::Density, 0).fill(1.01 * setup.moduli.density);
+    for (k, s) in [0.02, 0.03, 0.03, -0.02].into_iter().enumerate() {
+        p.column_mut(Quantity::ShearStress, k).fill(s * setup.moduli.shear);
+    }
+    form.accelerate(body.run_mut(), STILL);
+    let (inside, anywhere) = accelerations(&body, n, 3);
+    assert!(inside < EXACT, "{inside:e}");
+    assert!(anywhere > 0.005, "traction: {anywhere}");
+}
