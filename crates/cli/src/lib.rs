@@ -42,9 +42,9 @@ where
         Command::Run(options) => run::run(&options),
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
-        Command::Report { .. } => {
-            Err(Failure::Input("`taut report` comes in a later version; `taut run` already draws the pictures.".into()))
-        }
+        Command::Report { .. } => Err(Failure::Input(
+            "`taut report` comes in a later version; `taut run` already draws the pictures.".into(),
+        )),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -21,6 +21,12 @@ pub(crate) fn history<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 2]
     Ok(pairs.into_iter().map(|pair| pair.map(or_nan)).collect())
 }
 
+/// A list of (time, kinetic, strain, total), any of which may be `null`.
+pub(crate) fn energies<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 4]>, D::Error> {
+    let rows = Vec::<[Option<f64>; 4]>::deserialize(from)?;
+    Ok(rows.into_iter().map(|row| row.map(or_nan)).collect())
+}
+
 fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }

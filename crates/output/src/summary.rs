@@ -53,6 +53,9 @@ pub struct Energy {
     /// What is missing in the balance: initial + external_work - dissipated - final.
     #[serde(deserialize_with = "nullable::number")]
     pub residual: f64,
+    /// Samples, one whenever the disorder is measured: (time, kinetic, strain, kinetic + strain).
+    #[serde(default, deserialize_with = "nullable::energies")]
+    pub history: Vec<[f64; 4]>,
 }
 
 /// A vector that should not change, before and after.
@@ -276,6 +279,7 @@ mod tests {
             "/energy/initial",
             "/energy/final",
             "/energy/external_work",
+            "/energy/history",
             "/momentum/linear/final",
             "/momentum/angular/drift",
             "/disorder/zigzag_99/worst",
@@ -295,6 +299,7 @@ mod tests {
     fn numbers_that_are_not_finite_become_null_and_come_back_as_nan() {
         let mut broken = example();
         broken.energy.residual = f64::NAN;
+        broken.energy.history.push([0.0, 1.0, f64::NAN, f64::NAN]);
         broken.momentum.linear.at_end = [1.0, f64::INFINITY, 2.0];
         broken.disorder.zigzag_rms.history.push([2.0, f64::NAN]);
         broken.measured.insert("bad".to_string(), Measured::value(f64::NAN, "m").at(f64::INFINITY));
@@ -302,6 +307,7 @@ mod tests {
         broken.write(&ResultDir::create(scratch.path()).unwrap()).unwrap();
         let read = Summary::read(scratch.path()).unwrap();
         assert!(read.energy.residual.is_nan());
+        assert!(read.energy.history[0][1] == 1.0 && read.energy.history[0][2].is_nan());
         assert!(read.momentum.linear.at_end[1].is_nan() && read.momentum.linear.at_end[2] == 2.0);
         assert!(read.disorder.zigzag_rms.history[2][1].is_nan());
         assert_eq!(read.measured["bad"].value, None);

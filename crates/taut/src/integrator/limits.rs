@@ -2,7 +2,6 @@
 
 use crate::field::{Of, Quantity};
 use crate::math::Real;
-use crate::particles::Particles;
 use crate::pass::{Fold, Reduce};
 use crate::run::Run;
 
@@ -144,19 +143,20 @@ pub struct Diverged {
 pub(crate) type Check<'a> = (Quantity, Cause, &'a dyn Fn(usize, f64) -> bool);
 
 /// Finds the first particle (by id) with something wrong in one of the fields; `None` if all is well.
-pub(crate) fn culprit<const D: usize>(p: &Particles<D>, checks: &[Check<'_>]) -> Option<Diverged> {
+pub(crate) fn culprit<const D: usize>(run: &impl Run<D>, checks: &[Check<'_>]) -> Option<Diverged> {
+    let p = run.particles();
     for &(field, cause, wrong) in checks {
         let words = field.rank().words(D);
         let found = (0..p.len())
             .flat_map(|a| (0..words).map(move |w| (a, w)))
-            .map(|(a, w)| (a, p.column(field, w)[a]))
+            .map(|(a, w)| (a, run.word(field, w, a)))
             .filter(|&(a, value)| wrong(a, value))
             .min_by_key(|&(a, _)| p.ids()[a]);
         if let Some((place, value)) = found {
             let x = p.vector_at(Quantity::ReferencePosition, place);
             return Some(Diverged {
                 particle: p.ids()[place],
-                body: p.column(Quantity::Body, 0)[place] as usize,
+                body: run.word(Quantity::Body, 0, place) as usize,
                 position: std::array::from_fn(|i| if i < D { x[i] } else { 0.0 }),
                 field: field.name(),
                 value,

@@ -5,9 +5,7 @@ pub mod points;
 
 use taut::field::Quantity;
 use taut::formulation::{Formulation, total, updated};
-use taut::integrator::{
-    Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed,
-};
+use taut::integrator::{Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed};
 use taut::kernel::{Kernel, Shape};
 use taut::material::{Moduli, NeoHookean, Plane};
 use taut::math::Tensor;
@@ -146,12 +144,8 @@ impl Setup {
         let (m, all) = (self.moduli, |_| self.moduli);
         let (t, u) = (self.total_options(D), self.updated_options(D));
         match form {
-            Form::HourglassFree => {
-                Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run))
-            }
-            Form::TotalNested => {
-                Box::new(simulation::total(points, (self.total_nested(D), m), t, run))
-            }
+            Form::HourglassFree => Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run)),
+            Form::TotalNested => Box::new(simulation::total(points, (self.total_nested(D), m), t, run)),
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
             }
