@@ -6,8 +6,8 @@ use crate::pass::{Fold, Reduce};
 use crate::run::Run;
 
 record! {
-    /// Motion of a particle.
-    Motion { v: Velocity, a: Acceleration }
+    /// Motion and density of a particle.
+    Motion { v: Velocity, a: Acceleration, density: Density, rest: RestDensity }
     /// Motion and wave speed of a particle.
     Waves { v: Velocity, a: Acceleration, c2: WaveSpeedSquared }
 }
@@ -21,7 +21,8 @@ pub struct Limits {
     pub acceleration: f64,
     /// Largest wave speed in the metric of the list, m/s (0 where the formulation has none).
     pub wave_speed: f64,
-    /// Whether every velocity and acceleration is a number and no particle is inverted.
+    /// Whether every velocity and acceleration is a number, no particle is inverted and every density between a tenth
+    /// and ten times that at rest.
     pub finite: bool,
 }
 
@@ -30,15 +31,16 @@ struct MotionLimits;
 /// With wave speed.
 struct WaveLimits;
 
-impl<const D: usize> Reduce<D, 3> for MotionLimits {
+impl<const D: usize> Reduce<D, 5> for MotionLimits {
     type Reads = Motion<f64, D>;
     // The sum sees what a maximum may lose: every NaN ends up in it.
-    const FOLDS: [Fold; 3] = [Fold::Max, Fold::Max, Fold::Sum];
+    const FOLDS: [Fold; 5] = [Fold::Max, Fold::Max, Fold::Sum, Fold::Min, Fold::Max];
 
     #[inline(always)]
-    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 3] {
+    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 5] {
         let (v, a) = (p.v.norm_squared(), p.a.norm_squared());
-        [v, a, v + a]
+        let ratio = p.density / p.rest;
+        [v, a, v + a, ratio, ratio]
     }
 }
 
@@ -62,8 +64,9 @@ impl Limits {
 
     /// Of particles that do not.
     pub fn of_motion<const D: usize>(run: &mut impl Run<D>) -> Self {
-        let [v, a, sum] = run.reduce(&MotionLimits);
-        Self::new(v, a, 0.0, sum)
+        let [v, a, sum, thin, dense] = run.reduce(&MotionLimits);
+        let limits = Self::new(v, a, 0.0, sum);
+        Self { finite: limits.finite && thin > 0.1 && dense < 10.0, ..limits }
     }
 
     fn new(v: f64, a: f64, c: f64, sum: f64) -> Self {
