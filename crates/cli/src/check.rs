@@ -17,7 +17,8 @@ pub fn check(options: &CaseOptions) -> Result<(), Failure> {
     for body in &case.bodies {
         if let Some(material) = case.material_of(body) {
             let elastic = &material.elastic;
-            let speed = ((elastic.bulk_modulus + elastic.shear_modulus * 4.0 / 3.0) / material.density).sqrt();
+            let speed =
+                ((elastic.bulk_modulus + elastic.shear_modulus * 4.0 / 3.0) / material.density).sqrt();
             let formulation = body.scheme.formulation.name();
             println!("  body {}: {}, {formulation}, wave speed {speed:.4} m/s", body.name, material.name);
         }

@@ -44,9 +44,9 @@ where
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
         Command::Validate(options) => validate::validate(&options),
-        Command::Report { .. } => {
-            Err(Failure::Input("`taut report` comes in a later version; `taut run` already draws the pictures.".into()))
-        }
+        Command::Report { .. } => Err(Failure::Input(
+            "`taut report` comes in a later version; `taut run` already draws the pictures.".into(),
+        )),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

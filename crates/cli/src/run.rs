@@ -9,13 +9,15 @@ use case::Case;
 use case::run::{RunError, Settings, run as run_case};
 use output::Summary;
 use std::path::PathBuf;
+use taut::simulation::Numbers;
 
 /// Runs a case, draws its pictures, says where everything is.
 pub fn run(options: &RunOptions) -> Result<(), Failure> {
     refuse_later(options)?;
     let case = read(&options.case)?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&case.name));
-    let settings = Settings { out: out.clone(), threads: options.threads.map(usize::from) };
+    let settings =
+        Settings { out: out.clone(), threads: options.threads.map(usize::from), numbers: numbers(options)? };
     let mut watcher = Watcher::new(options.quiet);
     if !options.quiet {
         eprint!("{}", case.render_warnings(colour()));
@@ -39,18 +41,19 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
 }
 
 fn refuse_later(options: &RunOptions) -> Result<(), Failure> {
-    match &options.precision {
-        Some(p) if p == "double" => {}
-        Some(p) if p == "single" => {
-            return Err(Failure::Input("single precision comes in a later version.".to_string()));
-        }
-        Some(p) => return Err(Failure::Input(format!("`--precision {p}`: expected double or single."))),
-        None => {}
-    }
     if options.resume {
         return Err(Failure::Input("`--resume` comes in a later version.".to_string()));
     }
     Ok(())
+}
+
+/// In what numbers to compute.
+fn numbers(options: &RunOptions) -> Result<Numbers, Failure> {
+    match options.precision.as_deref() {
+        None | Some("double") => Ok(Numbers::Double),
+        Some("single") => Ok(Numbers::Single),
+        Some(other) => Err(Failure::Input(format!("`--precision {other}`: expected double or single."))),
+    }
 }
 
 fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {

@@ -1,13 +1,14 @@
 //! The match over formulations and materials.
 
 use super::bodies::Group;
-use crate::{Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule, Stepping};
-use taut::formulation::{total, updated};
+use crate::{Body, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule, Stepping};
+use taut::formulation::updated::Hypoelastic;
 use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
-use taut::run::Cpu;
-use taut::simulation::{self, Solver};
+use taut::simulation::{
+    InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+};
 
 /// The plane as the material sees it.
 pub fn plane(case: &Case) -> material::Plane {
@@ -44,31 +45,45 @@ fn all_moduli(case: &Case) -> Result<Vec<Moduli>, CaseError> {
 }
 
 /// The solver of a group.
-pub fn solver<const D: usize>(case: &Case, group: &Group<'_, D>) -> Result<Box<dyn Solver>, CaseError> {
+pub fn solver<const D: usize>(
+    case: &Case,
+    group: &Group<'_, D>,
+    numbers: Numbers,
+) -> Result<Box<dyn Solver>, CaseError>
+where
+    Point<D>: InSpace,
+{
     let all = all_moduli(case)?;
     let (index, body) = group.bodies[0];
     let scheme = &body.scheme;
-    let h = scheme.smoothing * case.spacing;
-    let model = case.material_of(body).map_or(Model::NeoHookean, |m| m.model);
-    let refused = || {
-        let message = format!("the model `{}` does not go with {}", model.name(), scheme.formulation.name());
-        Err(case.error_at(body.place, message, None))
-    };
+    let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
+    let points = Point::points(&group.points);
     match scheme.march {
         March::Total { step } => {
             let options = TotalOptions {
-                kernel: kernel::<D>(case, h),
+                kernel,
                 cfl: scheme.cfl,
                 wave_speed: if step == StepRule::Paper { WaveSpeed::Paper } else { WaveSpeed::Stretch },
                 bulk_speed: all[index].sound_speed(),
             };
-            let total = TotalBody { group, moduli: all[index], plane: plane(case), h, options };
-            total.solver(scheme.formulation, model).map_or_else(refused, Ok)
+            let form = match scheme.formulation {
+                Formulation::TlNested => TotalForm::Nested,
+                _ => TotalForm::HourglassFree,
+            };
+            let law = law(case, body, all[index]);
+            total_body(points, (form, law), options, numbers).ok_or_else(|| {
+                let message = format!(
+                    "the material `{}` does not go with {}",
+                    body.material,
+                    scheme.formulation.name()
+                );
+                case.error_at(body.place, message, None)
+            })
         }
         March::Updated { stepping, reference_speed } => {
-            let mine: Vec<Moduli> = group.bodies.iter().map(|&(i, _)| all[i]).collect();
+            let mine = group.bodies.iter().map(|&(i, _)| all[i].sound_speed());
             let options = UpdatedOptions {
-                kernel: kernel::<D>(case, h),
+                kernel,
                 cfl: scheme.cfl,
                 advection_cfl: 0.2,
                 stepping: match stepping {
@@ -76,71 +91,27 @@ pub fn solver<const D: usize>(case: &Case, group: &Group<'_, D>) -> Result<Box<d
                     Stepping::Single => integrator::Stepping::Single,
                 },
                 reference_speed,
-                bulk_speed: mine.iter().map(Moduli::sound_speed).fold(0.0, f64::max),
+                bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
+            let form = match scheme.formulation {
+                Formulation::UlNested => UpdatedForm::Nested,
+                _ => UpdatedForm::NonHourglass,
+            };
+            let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
-            updated_solver(scheme.formulation, group, (plane(case), &mine, &moduli), options)
-                .map_or_else(refused, Ok)
+            Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
     }
 }
 
-/// A total Lagrangian body about to get a solver.
-struct TotalBody<'a, const D: usize> {
-    group: &'a Group<'a, D>,
-    moduli: Moduli,
-    plane: material::Plane,
-    h: f64,
-    options: TotalOptions,
-}
-
-impl<const D: usize> TotalBody<'_, D> {
-    fn solver(&self, formulation: Formulation, model: Model) -> Option<Box<dyn Solver>> {
-        let moduli = self.moduli;
-        let neo_hookean = NeoHookean { moduli, plane: self.plane };
-        let log = NeoHookeanLog { moduli };
-        let svk = SaintVenantKirchhoff { moduli };
-        Some(match (formulation, model) {
-            (Formulation::TlHourglassFree, Model::NeoHookean) => {
-                self.with(total::HourglassFree::new(neo_hookean, self.h))
-            }
-            (Formulation::TlHourglassFree, Model::NeoHookeanLog) => {
-                self.with(total::HourglassFree::new(log, self.h))
-            }
-            (Formulation::TlNested, Model::NeoHookean) => self.with(total::Nested::new(neo_hookean, self.h)),
-            (Formulation::TlNested, Model::NeoHookeanLog) => self.with(total::Nested::new(log, self.h)),
-            (Formulation::TlNested, Model::SaintVenantKirchhoff) => {
-                self.with(total::Nested::new(svk, self.h))
-            }
-            _ => return None,
-        })
-    }
-
-    fn with<F: taut::formulation::Formulation<D> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
-        let formulation = (formulation, self.moduli);
-        Box::new(simulation::total(&self.group.points, formulation, self.options, Cpu::new))
-    }
-}
-
-fn updated_solver<const D: usize>(
-    formulation: Formulation,
-    group: &Group<'_, D>,
-    (plane, mine, moduli): (material::Plane, &[Moduli], &dyn Fn(u32) -> Moduli),
-    options: UpdatedOptions,
-) -> Option<Box<dyn Solver>> {
-    let stress = updated::Hypoelastic { plane };
-    Some(match formulation {
-        Formulation::UlNonHourglass => {
-            let form = updated::NonHourglass::new(stress, D);
-            let shear_speed = mine.iter().map(|m| form.shear_speed(m, D)).fold(0.0, f64::max);
-            let options = UpdatedOptions { shear_speed, ..options };
-            Box::new(simulation::updated(&group.points, (form, moduli), options, Cpu::new))
+/// The material of a total Lagrangian body.
+fn law(case: &Case, body: &Body, moduli: Moduli) -> Law {
+    match case.material_of(body).map_or(Model::NeoHookean, |m| m.model) {
+        Model::NeoHookeanLog => Law::NeoHookeanLog(NeoHookeanLog { moduli }),
+        Model::SaintVenantKirchhoff => Law::SaintVenantKirchhoff(SaintVenantKirchhoff { moduli }),
+        Model::NeoHookean | Model::LinearElastic => {
+            Law::NeoHookean(NeoHookean { moduli, plane: plane(case) })
         }
-        Formulation::UlNested => {
-            let form = updated::Nested { stress };
-            Box::new(simulation::updated(&group.points, (form, moduli), options, Cpu::new))
-        }
-        _ => return None,
-    })
+    }
 }

@@ -144,7 +144,9 @@ impl Accept {
         let mut checks = Vec::new();
         for check in &written.check {
             for run in &check.runs {
-                checks.push(check.of(run, &runs).map_err(|what| format!("check `{}`: {what}", check.quantity))?);
+                checks.push(
+                    check.of(run, &runs).map_err(|what| format!("check `{}`: {what}", check.quantity))?,
+                );
             }
         }
         Ok(Self { case: written.case, runs, checks })

@@ -42,7 +42,8 @@ impl Evidence {
         for name in &path.names {
             here = here.get(name).ok_or_else(|| format!("summary.json has no {path}"))?;
         }
-        let number = here.as_f64().or_else(|| ["value", "worst"].iter().find_map(|key| here.get(key)?.as_f64()));
+        let number =
+            here.as_f64().or_else(|| ["value", "worst"].iter().find_map(|key| here.get(key)?.as_f64()));
         number.ok_or_else(|| match here.get("reason") {
             Some(Value::String(reason)) => reason.clone(),
             _ => format!("{path} is no number"),
@@ -51,7 +52,8 @@ impl Evidence {
 
     fn curve(&self, path: &Path) -> Result<(Vec<f64>, Vec<f64>), String> {
         let names: Vec<&str> = path.names.iter().map(String::as_str).collect();
-        let energies = |column: usize| self.summary.energy.history.iter().map(|row| (row[0], row[column])).unzip();
+        let energies =
+            |column: usize| self.summary.energy.history.iter().map(|row| (row[0], row[column])).unzip();
         match names[..] {
             ["energy", "kinetic"] => Ok(energies(1)),
             ["energy", "strain"] => Ok(energies(2)),
@@ -63,7 +65,11 @@ impl Evidence {
                 let history = history.ok_or_else(|| format!("summary.json has no {path}"))?;
                 let pairs: Vec<[Option<f64>; 2]> =
                     serde_json::from_value(history.clone()).map_err(|error| error.to_string())?;
-                Ok(pairs.into_iter().map(|pair| pair.map(|v| v.unwrap_or(f64::NAN))).map(|[t, v]| (t, v)).unzip())
+                Ok(pairs
+                    .into_iter()
+                    .map(|pair| pair.map(|v| v.unwrap_or(f64::NAN)))
+                    .map(|[t, v]| (t, v))
+                    .unzip())
             }
             _ => Err(format!("{path} is no curve")),
         }

@@ -18,6 +18,7 @@ use output::{OutputError, Summary};
 use row::Row;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use taut::simulation::Numbers;
 
 /// Name of every benchmark and the text of its `accept.toml`.
 const BENCHMARKS: &[(&str, &str)] = &[
@@ -65,7 +66,8 @@ fn chosen(names: &[String]) -> Result<Vec<&'static (&'static str, &'static str)>
 
 /// Makes the runs of one benchmark, each once, and judges its checks.
 fn benchmark(name: &str, accept: &Accept, options: &ValidateOptions) -> Result<Vec<Row>, Failure> {
-    let checks: Vec<_> = accept.checks.iter().filter(|check| options.full || !accept.is_full(check)).collect();
+    let checks: Vec<_> =
+        accept.checks.iter().filter(|check| options.full || !accept.is_full(check)).collect();
     let scratch = tempfile::tempdir()
         .map_err(|error| Failure::Run(format!("cannot make a temporary directory: {error}")))?;
     let out = options.out.as_ref().map_or(scratch.path().to_path_buf(), |out| out.join(name));
@@ -86,7 +88,8 @@ fn perform(case: &str, run: &Run, out: &Path, threads: Option<u16>) -> Result<Ev
     let options =
         CaseOptions { case: case.to_string(), set: run.set.clone(), formulation: run.formulation.clone() };
     let case = builtin::read(&options)?;
-    let settings = Settings { out: out.to_path_buf(), threads: threads.map(usize::from) };
+    let settings =
+        Settings { out: out.to_path_buf(), threads: threads.map(usize::from), numbers: Numbers::Double };
     let unreadable = |error: OutputError| Failure::Run(format!("{error}\nhint: {}", error.hint()));
     let summary = match run_case(&case, &settings, &mut Silent) {
         Ok(summary) => summary,
@@ -97,7 +100,12 @@ fn perform(case: &str, run: &Run, out: &Path, threads: Option<u16>) -> Result<Ev
     let manifest = out.join("manifest.json");
     let bytes = std::fs::read(&manifest)
         .map_err(|error| Failure::Run(format!("cannot read {}: {error}", manifest.display())))?;
-    Ok(Evidence { directory: out.to_path_buf(), summary, manifest: hash(&bytes), may_diverge: run.may_diverge })
+    Ok(Evidence {
+        directory: out.to_path_buf(),
+        summary,
+        manifest: hash(&bytes),
+        may_diverge: run.may_diverge,
+    })
 }
 
 /// A run in a line.

@@ -8,7 +8,8 @@ pub fn lines(rows: &[Row]) -> Vec<String> {
     let cells: Vec<[String; 6]> = std::iter::once(head).chain(rows.iter().map(cells)).collect();
     let widths: [usize; 6] =
         std::array::from_fn(|k| cells.iter().map(|row| row[k].chars().count()).max().unwrap_or(0));
-    let verdicts = std::iter::once("").chain(rows.iter().map(|row| if row.holds { "holds" } else { "FAILS" }));
+    let verdicts =
+        std::iter::once("").chain(rows.iter().map(|row| if row.holds { "holds" } else { "FAILS" }));
     let mut lines = Vec::new();
     for (i, (cells, verdict)) in cells.iter().zip(verdicts).enumerate() {
         let padded: Vec<String> =
@@ -31,12 +32,14 @@ fn cells(row: &Row) -> [String; 6] {
     let expected = row.expected().map_or("-".to_string(), |value| format!("{}{who}", number(value)));
     let obtained = row.obtained.map_or("none".to_string(), |value| format!("{}{unit}", number(value)));
     let (difference, allowed) = match row.how {
-        "relative" => {
-            (row.difference.map(|d| format!("{:+.2} %", 100.0 * d)), format!("{} %", number(100.0 * row.tolerance)))
-        }
-        "absolute" => {
-            (row.difference.map(|d| format!("{}{unit}", number(d))), format!("{}{unit}", number(row.tolerance)))
-        }
+        "relative" => (
+            row.difference.map(|d| format!("{:+.2} %", 100.0 * d)),
+            format!("{} %", number(100.0 * row.tolerance)),
+        ),
+        "absolute" => (
+            row.difference.map(|d| format!("{}{unit}", number(d))),
+            format!("{}{unit}", number(row.tolerance)),
+        ),
         "below" => (None, format!("< {}", number(row.tolerance))),
         _ => (None, format!("> {}", number(row.tolerance))),
     };

@@ -32,6 +32,26 @@ macro_rules! glossary {
                 match self { $(Self::$name => $unit),+ }
             }
 
+            /// Whether it is integrated in time: such fields stay in double precision when the rest is single.
+            #[must_use]
+            pub const fn is_state(self) -> bool {
+                matches!(
+                    self,
+                    Self::ReferencePosition
+                        | Self::Displacement
+                        | Self::Position
+                        | Self::Velocity
+                        | Self::Density
+                        | Self::DeformationGradient
+                        | Self::ShearAcceleration
+                        | Self::ShearStress
+                        | Self::AxialShearStress
+                        | Self::Dissipated
+                        | Self::ShearWork
+                        | Self::ExternalWork
+                )
+            }
+
             /// The rank.
             #[must_use]
             pub const fn rank(self) -> Rank {

@@ -2,13 +2,12 @@
 
 use crate::field::{Of, Quantity};
 use crate::math::Real;
-use crate::particles::Particles;
 use crate::pass::{Fold, Reduce};
 use crate::run::Run;
 
 record! {
-    /// Motion of a particle.
-    Motion { v: Velocity, a: Acceleration }
+    /// Motion and density of a particle.
+    Motion { v: Velocity, a: Acceleration, density: Density, rest: RestDensity }
     /// Motion and wave speed of a particle.
     Waves { v: Velocity, a: Acceleration, c2: WaveSpeedSquared }
 }
@@ -22,7 +21,8 @@ pub struct Limits {
     pub acceleration: f64,
     /// Largest wave speed in the metric of the list, m/s (0 where the formulation has none).
     pub wave_speed: f64,
-    /// Whether every velocity and acceleration is a number and no particle is inverted.
+    /// Whether every velocity and acceleration is a number, no particle is inverted and every density between a tenth
+    /// and ten times that at rest.
     pub finite: bool,
 }
 
@@ -31,15 +31,16 @@ struct MotionLimits;
 /// With wave speed.
 struct WaveLimits;
 
-impl<const D: usize> Reduce<D, 3> for MotionLimits {
+impl<const D: usize> Reduce<D, 5> for MotionLimits {
     type Reads = Motion<f64, D>;
     // The sum sees what a maximum may lose: every NaN ends up in it.
-    const FOLDS: [Fold; 3] = [Fold::Max, Fold::Max, Fold::Sum];
+    const FOLDS: [Fold; 5] = [Fold::Max, Fold::Max, Fold::Sum, Fold::Min, Fold::Max];
 
     #[inline(always)]
-    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 3] {
+    fn at<S: Real>(&self, p: &Of<Self::Reads, S, D>) -> [S; 5] {
         let (v, a) = (p.v.norm_squared(), p.a.norm_squared());
-        [v, a, v + a]
+        let ratio = p.density / p.rest;
+        [v, a, v + a, ratio, ratio]
     }
 }
 
@@ -63,8 +64,9 @@ impl Limits {
 
     /// Of particles that do not.
     pub fn of_motion<const D: usize>(run: &mut impl Run<D>) -> Self {
-        let [v, a, sum] = run.reduce(&MotionLimits);
-        Self::new(v, a, 0.0, sum)
+        let [v, a, sum, thin, dense] = run.reduce(&MotionLimits);
+        let limits = Self::new(v, a, 0.0, sum);
+        Self { finite: limits.finite && thin > 0.1 && dense < 10.0, ..limits }
     }
 
     fn new(v: f64, a: f64, c: f64, sum: f64) -> Self {
@@ -88,6 +90,8 @@ pub enum Cause {
     Density,
     /// A speed above ten wave speeds.
     Speed,
+    /// The pair list could not be made.
+    Unlisted,
 }
 
 impl Cause {
@@ -106,6 +110,10 @@ impl Cause {
             Self::Density => {
                 "particles were pressed together or torn apart: with ul-nested this is tensile instability, \
                  otherwise try a smaller [time] cfl or a slower impact"
+            }
+            Self::Unlisted => {
+                "the neighbours cannot be listed: more than 2^32 pairs, or a smoothing length that is no length; use fewer \
+                 particles or a smaller `smoothing`"
             }
             Self::Speed => {
                 "energy appeared from nowhere: the time step is too long; try a smaller [time] cfl"
@@ -140,23 +148,40 @@ pub struct Diverged {
     pub cause: Cause,
 }
 
+impl Diverged {
+    /// A pair list that could not be made although every position is a number.
+    pub(crate) fn unlisted() -> Self {
+        Self {
+            particle: 0,
+            body: 0,
+            position: [0.0; 3],
+            field: "number of pairs",
+            value: f64::NAN,
+            time: 0.0,
+            step: 0,
+            cause: Cause::Unlisted,
+        }
+    }
+}
+
 /// A test of one field: what it means if a value fails it, and whether it does.
 pub(crate) type Check<'a> = (Quantity, Cause, &'a dyn Fn(usize, f64) -> bool);
 
 /// Finds the first particle (by id) with something wrong in one of the fields; `None` if all is well.
-pub(crate) fn culprit<const D: usize>(p: &Particles<D>, checks: &[Check<'_>]) -> Option<Diverged> {
+pub(crate) fn culprit<const D: usize>(run: &impl Run<D>, checks: &[Check<'_>]) -> Option<Diverged> {
+    let p = run.particles();
     for &(field, cause, wrong) in checks {
         let words = field.rank().words(D);
         let found = (0..p.len())
             .flat_map(|a| (0..words).map(move |w| (a, w)))
-            .map(|(a, w)| (a, p.column(field, w)[a]))
+            .map(|(a, w)| (a, run.word(field, w, a)))
             .filter(|&(a, value)| wrong(a, value))
             .min_by_key(|&(a, _)| p.ids()[a]);
         if let Some((place, value)) = found {
             let x = p.vector_at(Quantity::ReferencePosition, place);
             return Some(Diverged {
                 particle: p.ids()[place],
-                body: p.column(Quantity::Body, 0)[place] as usize,
+                body: run.word(Quantity::Body, 0, place) as usize,
                 position: std::array::from_fn(|i| if i < D { x[i] } else { 0.0 }),
                 field: field.name(),
                 value,

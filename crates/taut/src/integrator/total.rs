@@ -67,11 +67,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         if self.limits.finite && self.limits.speed < bound {
             return Ok(());
         }
-        let p = self.run.particles();
         let not_finite = |_: usize, x: f64| !x.is_finite();
         let fast = |_: usize, x: f64| x.is_nan() || x.abs() >= bound / (D as f64).sqrt();
         let found = culprit(
-            p,
+            &self.run,
             &[
                 (Quantity::WaveSpeedSquared, Cause::Inverted, &|_, x| x == f64::INFINITY),
                 (Quantity::Velocity, Cause::NotFinite, &not_finite),
@@ -95,7 +94,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         let p = self.run.particles();
         let place = p.ids().iter().position(|&i| i == id).unwrap_or(0);
         let f = crate::math::Tensor::<f64, D>::from_fn(|i, j| {
-            p.column(Quantity::DeformationGradient, i * D + j)[place]
+            self.run.word(Quantity::DeformationGradient, i * D + j, place)
         });
         f.det()
     }
@@ -126,9 +125,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         };
         if self.run.relist(&relist).is_err() {
             let wrong = |_: usize, x: f64| !x.is_finite();
-            let found =
-                culprit(self.run.particles(), &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
-            return found.map_or(Ok(()), Err);
+            let found = culprit(&self.run, &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
+            return Err(found.unwrap_or_else(Diverged::unlisted));
         }
         for i in 0..D {
             self.run.particles_mut().column_mut(Quantity::DeformationGradient, i * D + i).fill(1.0);
@@ -164,14 +162,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {
-        let p = self.run.particles();
+        let word = |field, i| self.run.word(field, i, place);
         let mut out = [0.0; 3];
         for i in 0..D {
             out[i] = match field {
-                Quantity::Displacement => {
-                    p.column(field, i)[place] - self.ahead * p.column(Quantity::Velocity, i)[place]
-                }
-                _ => p.column(field, i)[place],
+                Quantity::Displacement => word(field, i) - self.ahead * word(Quantity::Velocity, i),
+                _ => word(field, i),
             };
         }
         out
@@ -179,12 +175,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]) {
         for i in 0..D {
-            self.run.particles_mut().column_mut(field, i)[place] = value[i];
+            self.run.set_word(field, i, (place, value[i]));
         }
     }
 
     fn scalar(&self, field: Quantity, place: usize) -> f64 {
-        self.run.particles().column(field, 0)[place]
+        self.run.word(field, 0, place)
     }
 
     fn state(&self, place: usize) -> State {

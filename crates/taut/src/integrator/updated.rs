@@ -77,6 +77,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         let relist = Relist { positions: Quantity::Position, kernel: o.kernel, among: Among::All };
         if self.run.relist(&relist).is_err() {
             self.diagnose()?;
+            return Err(Diverged::unlisted());
         }
         self.formulation.relisted(&mut self.run);
         self.left = match o.stepping {
@@ -99,14 +100,13 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
     }
 
     fn diagnose(&self) -> Result<(), Diverged> {
-        let p = self.run.particles();
-        let rest = p.column(Quantity::RestDensity, 0);
+        let rest = |a| self.run.word(Quantity::RestDensity, 0, a);
         let bound = 10.0 * self.options.bulk_speed / (D as f64).sqrt();
         let not_finite = |_: usize, x: f64| !x.is_finite();
         let found = culprit(
-            p,
+            &self.run,
             &[
-                (Quantity::Density, Cause::Density, &|a, x| !(0.1..10.0).contains(&(x / rest[a]))),
+                (Quantity::Density, Cause::Density, &|a, x| !(0.1..10.0).contains(&(x / rest(a)))),
                 (Quantity::Velocity, Cause::NotFinite, &not_finite),
                 (Quantity::Acceleration, Cause::NotFinite, &not_finite),
                 (Quantity::Position, Cause::NotFinite, &|_, x| x.is_nan() || x.abs() >= 1e150),
@@ -166,14 +166,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
     }
 
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {
-        let p = self.run.particles();
+        let word = |field, i| self.run.word(field, i, place);
         let mut out = [0.0; 3];
         for i in 0..D {
             out[i] = match field {
-                Quantity::Displacement => {
-                    p.column(Quantity::Position, i)[place] - p.column(Quantity::ReferencePosition, i)[place]
-                }
-                _ => p.column(field, i)[place],
+                Quantity::Displacement => word(Quantity::Position, i) - word(Quantity::ReferencePosition, i),
+                _ => word(field, i),
             };
         }
         out
@@ -181,12 +179,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]) {
         for i in 0..D {
-            self.run.particles_mut().column_mut(field, i)[place] = value[i];
+            self.run.set_word(field, i, (place, value[i]));
         }
     }
 
     fn scalar(&self, field: Quantity, place: usize) -> f64 {
-        self.run.particles().column(field, 0)[place]
+        self.run.word(field, 0, place)
     }
 
     fn state(&self, place: usize) -> State {

@@ -5,9 +5,9 @@ mod real;
 mod tensor;
 mod vector;
 
+pub use lanes::{Element, Lanes, MOST_LANES, plain};
 #[cfg(target_arch = "x86_64")]
-pub use lanes::avx2::{F64x4, available as avx2_available};
-pub use lanes::{Lanes, plain::Plain4};
+pub use lanes::{avx2, avx512};
 pub use real::Real;
 pub use tensor::Tensor;
 pub use vector::Vector;

@@ -4,11 +4,11 @@ use crate::field::{Quantity, Record};
 use crate::math::Vector;
 
 /// Free numbers before the first and after the last particle of a column: lanes may be read beyond the ends.
-const GUARD: usize = 8;
+pub(crate) const GUARD: usize = 16;
 
 /// Distance of two columns, in numbers: at least the particles and the guard, and 320 bytes off a multiple of 4096, because
 /// columns that are walked together must not share the same few lines of the first cache (measured: 1.2 to 1.8 times).
-const fn stride(len: usize) -> usize {
+pub(crate) const fn stride(len: usize) -> usize {
     let least = len + 2 * GUARD;
     least + (512 + 40 - least % 512) % 512
 }
@@ -133,6 +133,11 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// How many columns.
+    pub(crate) fn columns(&self) -> usize {
+        self.columns
+    }
+
     /// Column number `k`, as [`Particles::place`] counts them.
     pub(crate) fn nth(&self, k: usize) -> &[f64] {
         let first = GUARD + k * stride(self.len);
@@ -145,7 +150,7 @@ impl<const D: usize> Particles<D> {
         &mut self.data[first..first + self.len]
     }
 
-    /// The first number of column `k`; the columns follow each other, and up to eight numbers before and after each
+    /// The first number of column `k`; the columns follow each other, and up to sixteen numbers before and after each
     /// may be read.
     pub(crate) fn nth_ptr(&mut self, k: usize) -> *mut f64 {
         let first = GUARD + k * stride(self.len);

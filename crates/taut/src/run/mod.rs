@@ -3,7 +3,7 @@
 mod cpu;
 mod serial;
 
-pub use cpu::{Cpu, InstructionSet};
+pub use cpu::{Cpu, Double, InstructionSet, Precision, Single};
 pub use serial::Serial;
 
 use crate::field::Quantity;
@@ -37,11 +37,21 @@ pub enum Among {
 
 /// A back-end: it owns the particles and their pair list, and runs passes over them.
 pub trait Run<const D: usize>: Send {
-    /// The particles.
+    /// The particles. In a single run only what is integrated in time is up to date here; [`Run::word`] always is.
     fn particles(&self) -> &Particles<D>;
 
     /// The particles, to write from outside of passes.
     fn particles_mut(&mut self) -> &mut Particles<D>;
+
+    /// One number of one particle, as it is now.
+    fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
+        self.particles().column(field, word)[place]
+    }
+
+    /// Sets one number of one particle.
+    fn set_word(&mut self, field: Quantity, word: usize, (place, value): (usize, f64)) {
+        self.particles_mut().column_mut(field, word)[place] = value;
+    }
 
     /// Finds the neighbours anew and evaluates the kernel of every pair, with the present `Volume` of b.
     ///

@@ -1,8 +1,10 @@
 //! A simulation: bodies that share one clock.
 
+mod body;
 mod particles;
 mod snapshot;
 
+pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies};
 pub use particles::{Point, total, updated};
 pub use snapshot::{Snapshot, Totals};
 

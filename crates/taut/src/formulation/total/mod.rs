@@ -68,8 +68,7 @@ impl<M: Hyperelastic> Solid<M> {
 
     /// State of a stored particle.
     pub(crate) fn state<const D: usize>(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
-        let p = run.particles();
-        let word = |field, k| p.column(field, k)[place];
+        let word = |field, k| run.word(field, k, place);
         let f: Tensor<f64, D> = Tensor::from_fn(|i, j| {
             let k = i * D + j;
             word(Quantity::DeformationGradient, k) - ahead * word(Quantity::DeformationRate, k)

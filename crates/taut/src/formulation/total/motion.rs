@@ -103,15 +103,16 @@ impl<F: Stress<D>, const D: usize> Update<D> for Stretch<'_, F> {
         // Power of the damper, tau_d F^-T : dF, per reference volume.
         let power = damping.mul(inverse.transpose()).double_dot(rate);
         let c2 = solid.material.stiffness(f) * S::of(1.0 / solid.material.moduli().density);
-        // An inverted particle has no wave speed: infinite, so that the step sees it at once.
-        let sound = S::zero().lt(f.det());
+        // An inverted particle has no wave speed: infinite, so that the step sees it at once. One whose F is
+        // not a number has none either, but that is another cause: NaN stays NaN.
+        let inverted = f.det().lt(S::of(f64::MIN_POSITIVE));
         Deformed {
             u: a.u.plus(now.dt, a.v),
             f,
             rate,
             q,
             pair,
-            c2: S::select(sound, c2, S::of(f64::INFINITY)),
+            c2: S::select(inverted, S::of(f64::INFINITY), c2),
             dissipated: (a.volume * now.dt).mul_add(power, a.dissipated),
         }
     }

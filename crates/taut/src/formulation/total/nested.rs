@@ -57,7 +57,8 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Nested<M> {
         &self.solid
     }
 
-    /// Q = (tau + tau_d) F^-T B.
+    /// Q = (tau + tau_d) F^-T B^T: B is symmetric but for the rounding of listed weights, and only B^T is the adjoint of the
+    /// gradient whatever they are.
     #[inline(always)]
     fn hand_over<S: Real>(
         &self,
@@ -67,7 +68,7 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Nested<M> {
     ) -> (Tensor<S, D>, S) {
         let tau = self.solid.material.kirchhoff(f);
         let in_plane: Tensor<S, D> = Tensor::from_fn(|i, j| tau[i][j] + damping[i][j]);
-        (in_plane.mul(f.inverse().transpose()).mul(correction), S::zero())
+        (in_plane.mul(f.inverse().transpose()).mul(correction.transpose()), S::zero())
     }
 }
 

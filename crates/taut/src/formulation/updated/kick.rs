@@ -2,7 +2,7 @@
 
 use crate::field::Of;
 use crate::formulation::kick::Mover;
-use crate::math::{Real, Vector};
+use crate::math::Real;
 use crate::pass::{Now, Update};
 
 record! {
@@ -34,9 +34,8 @@ impl<const D: usize> Update<D> for Kick {
         let internal = sum.f.times(a.volume / a.m) + a.shear;
         let mover = Mover { v: a.v, m: a.m, b: a.b, free: a.free, given: a.given };
         let kicked = mover.kick(internal, now);
-        // The shear force does work on what moves; where it is held its work is the constraint's.
-        let moving = Vector::from_fn(|i| kicked.mean[i] * a.free[i]);
-        let stored = (a.m * now.dt) * a.shear.dot(moving);
+        // On all that moves, led particles included: what holds them against it is in the external work.
+        let stored = (a.m * now.dt) * a.shear.dot(kicked.mean);
         Moved {
             x: a.x.plus(now.dt * S::of(0.5), kicked.v),
             v: kicked.v,

@@ -90,8 +90,7 @@ pub(crate) fn same_body<S: Real>(a: S, b: S) -> S {
 
 /// State of a stored particle; `shear_energy` is what the shear forces have stored in it, J.
 pub(crate) fn state<const D: usize>(run: &impl Run<D>, place: usize, shear_energy: f64) -> State {
-    let p = run.particles();
-    let word = |field, k| p.column(field, k)[place];
+    let word = |field, k| run.word(field, k, place);
     let s = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j));
     let (density, rest) = (word(Quantity::Density, 0), word(Quantity::RestDensity, 0));
     let c2 = word(Quantity::SoundSpeed, 0).powi(2);

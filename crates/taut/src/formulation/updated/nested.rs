@@ -136,8 +136,7 @@ impl<const D: usize> Formulation<D> for Nested {
 
     /// The shear energy is s:s / (4G) per volume.
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {
-        let p = run.particles();
-        let word = |field, k| p.column(field, k)[place];
+        let word = |field, k| run.word(field, k, place);
         let s: Tensor<f64, 3> = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j))
             .lift(word(Quantity::AxialShearStress, 0));
         let volume = word(Quantity::Mass, 0) / word(Quantity::Density, 0);

@@ -144,6 +144,6 @@ impl<const D: usize> Formulation<D> for NonHourglass {
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {
-        super::state(run, place, run.particles().column(Quantity::ShearWork, 0)[place])
+        super::state(run, place, run.word(Quantity::ShearWork, 0, place))
     }
 }

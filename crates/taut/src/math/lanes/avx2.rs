@@ -1,12 +1,12 @@
 //! Lanes of AVX2 with fused multiply-add. Reached only behind [`available`], through a function that carries
 //! `#[target_feature(enable = "avx2,fma")]` and into which all of this is inlined.
 
-use super::Lanes;
+use super::{Lanes, each_lane, operators};
 use crate::math::Real;
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Whether this machine has what [`F64x4`] needs.
+/// Whether this machine has what these lanes need.
 #[must_use]
 pub fn available() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
@@ -16,87 +16,123 @@ pub fn available() -> bool {
 #[derive(Clone, Copy, Debug)]
 pub struct F64x4(__m256d);
 
+/// Eight floats in one AVX register.
+#[derive(Clone, Copy, Debug)]
+pub struct F32x8(__m256);
+
 impl F64x4 {
+    /// The register.
     #[inline(always)]
-    fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut a = [0.0; 4];
-        // SAFETY: four doubles on the stack; AVX2 is there (see module).
-        unsafe {
-            self.store(a.as_mut_ptr());
-            Self::load(a.map(f).as_ptr())
-        }
+    pub(super) fn register(self) -> __m256d {
+        self.0
     }
 }
 
-macro_rules! operator {
-    ($($trait:ident $name:ident $intrinsic:ident),*) => {$(
-        impl $trait for F64x4 {
+impl F32x8 {
+    /// The register.
+    #[inline(always)]
+    pub(super) fn register(self) -> __m256 {
+        self.0
+    }
+}
+
+operators!(F64x4: Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
+operators!(F32x8: Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+each_lane!(F64x4, f64, 4);
+each_lane!(F32x8, f32, 8);
+
+/// Arithmetic of one lane type, from its intrinsics.
+macro_rules! real {
+    ($lanes:ty, $mask:ty, $set:ident, $xor:ident, $andnot:ident, $fma:ident, $sqrt:ident, $min:ident, $max:ident,
+     $cmp:ident, $blend:ident, $e:ty) => {
+        impl Neg for $lanes {
             type Output = Self;
             #[inline(always)]
-            fn $name(self, o: Self) -> Self {
+            fn neg(self) -> Self {
                 // SAFETY: AVX2 is there (see module).
-                Self(unsafe { $intrinsic(self.0, o.0) })
+                Self(unsafe { $xor(self.0, $set(-0.0)) })
             }
         }
-    )*};
-}
-operator!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
 
-impl Neg for F64x4 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // SAFETY: AVX2 is there (see module).
-        Self(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
-    }
+        // SAFETY of every block below: AVX2 and FMA are there (see module).
+        impl Real for $lanes {
+            type Mask = $mask;
+            #[inline(always)]
+            fn of(x: f64) -> Self {
+                Self(unsafe { $set(x as $e) })
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                Self(unsafe { $fma(self.0, a.0, b.0) })
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(unsafe { $sqrt(self.0) })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(unsafe { $andnot($set(-0.0), self.0) })
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                self.each(<$e>::exp)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                self.each(<$e>::ln)
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(unsafe { $min(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                Self(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> $mask {
+                unsafe { $cmp::<_CMP_LT_OQ>(self.0, other.0) }
+            }
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                Self(unsafe { $blend(no.0, yes.0, mask) })
+            }
+        }
+    };
 }
-
-// SAFETY of every block below: AVX2 and FMA are there (see module).
-impl Real for F64x4 {
-    type Mask = __m256d;
-    #[inline(always)]
-    fn of(x: f64) -> Self {
-        Self(unsafe { _mm256_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        Self(unsafe { _mm256_fmadd_pd(self.0, a.0, b.0) })
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(unsafe { _mm256_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        self.each(f64::exp)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        self.each(f64::ln)
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(unsafe { _mm256_min_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(unsafe { _mm256_max_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> __m256d {
-        unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) }
-    }
-    #[inline(always)]
-    fn select(mask: __m256d, yes: Self, no: Self) -> Self {
-        Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask) })
-    }
-}
+real!(
+    F64x4,
+    __m256d,
+    _mm256_set1_pd,
+    _mm256_xor_pd,
+    _mm256_andnot_pd,
+    _mm256_fmadd_pd,
+    _mm256_sqrt_pd,
+    _mm256_min_pd,
+    _mm256_max_pd,
+    _mm256_cmp_pd,
+    _mm256_blendv_pd,
+    f64
+);
+real!(
+    F32x8,
+    __m256,
+    _mm256_set1_ps,
+    _mm256_xor_ps,
+    _mm256_andnot_ps,
+    _mm256_fmadd_ps,
+    _mm256_sqrt_ps,
+    _mm256_min_ps,
+    _mm256_max_ps,
+    _mm256_cmp_ps,
+    _mm256_blendv_ps,
+    f32
+);
 
 impl Lanes for F64x4 {
+    type E = f64;
+    const N: usize = 4;
+
     #[inline(always)]
     unsafe fn load(from: *const f64) -> Self {
         // SAFETY: the caller vouches for four doubles.
@@ -108,18 +144,28 @@ impl Lanes for F64x4 {
         Self(unsafe { _mm256_cvtps_pd(_mm_loadu_ps(from)) })
     }
     #[inline(always)]
+    unsafe fn store_single(self, to: *mut f32) {
+        // SAFETY: the caller vouches for four floats.
+        unsafe { _mm_storeu_ps(to, _mm256_cvtpd_ps(self.0)) }
+    }
+    #[inline(always)]
+    unsafe fn store_double(self, to: *mut f64) {
+        // SAFETY: the caller vouches for four doubles.
+        unsafe { self.store(to) }
+    }
+    #[inline(always)]
     unsafe fn store(self, to: *mut f64) {
         // SAFETY: the caller vouches for four doubles.
         unsafe { _mm256_storeu_pd(to, self.0) }
     }
     /// Half-register loads and inserts instead of full loads: no cross-lane shuffle is needed then.
     #[inline(always)]
-    unsafe fn transposed(from: [*const f64; 4]) -> [Self; 4] {
+    unsafe fn transposed(from: impl Fn(usize) -> *const f64) -> [Self; 4] {
         // SAFETY: the caller vouches for four doubles behind each address.
         unsafe {
             let half = |lo: usize, hi: usize, o: usize| {
-                let low = _mm256_castpd128_pd256(_mm_loadu_pd(from[lo].add(o)));
-                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(from[hi].add(o)))
+                let low = _mm256_castpd128_pd256(_mm_loadu_pd(from(lo).add(o)));
+                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(from(hi).add(o)))
             };
             let (a, b, c, d) = (half(0, 2, 0), half(1, 3, 0), half(0, 2, 2), half(1, 3, 2));
             [
@@ -136,6 +182,70 @@ impl Lanes for F64x4 {
         unsafe {
             let pair = _mm_add_pd(_mm256_castpd256_pd128(self.0), _mm256_extractf128_pd::<1>(self.0));
             _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)))
+        }
+    }
+}
+
+impl Lanes for F32x8 {
+    type E = f32;
+    const N: usize = 8;
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: the caller vouches for eight floats.
+        Self(unsafe { _mm256_loadu_ps(from) })
+    }
+    #[inline(always)]
+    unsafe fn load_single(from: *const f32) -> Self {
+        // SAFETY: the caller vouches for eight floats.
+        unsafe { Self::load(from) }
+    }
+    #[inline(always)]
+    unsafe fn store_single(self, to: *mut f32) {
+        // SAFETY: the caller vouches for eight floats.
+        unsafe { self.store(to) }
+    }
+    #[inline(always)]
+    unsafe fn store_double(self, to: *mut f64) {
+        // SAFETY: the caller vouches for eight doubles.
+        unsafe {
+            _mm256_storeu_pd(to, _mm256_cvtps_pd(_mm256_castps256_ps128(self.0)));
+            _mm256_storeu_pd(to.add(4), _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0)));
+        }
+    }
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        // SAFETY: the caller vouches for eight floats.
+        unsafe { _mm256_storeu_ps(to, self.0) }
+    }
+    /// Records l and l + 4 share a register, so that the transposition stays inside halves.
+    #[inline(always)]
+    unsafe fn transposed(from: impl Fn(usize) -> *const f32) -> [Self; 4] {
+        // SAFETY: the caller vouches for four floats behind each address.
+        unsafe {
+            let both = |l: usize| {
+                let low = _mm256_castps128_ps256(_mm_loadu_ps(from(l)));
+                _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(from(l + 4)))
+            };
+            let (a, b, c, d) = (both(0), both(1), both(2), both(3));
+            let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+            let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+            [
+                Self(_mm256_shuffle_ps::<0x44>(ab, cd)),
+                Self(_mm256_shuffle_ps::<0xEE>(ab, cd)),
+                Self(_mm256_shuffle_ps::<0x44>(ab2, cd2)),
+                Self(_mm256_shuffle_ps::<0xEE>(ab2, cd2)),
+            ]
+        }
+    }
+    /// In double precision: lanes of a sum are of like size, but there may be many of them.
+    #[inline(always)]
+    fn total(self) -> f64 {
+        // SAFETY: AVX2 is there (see module).
+        unsafe {
+            let low = _mm256_cvtps_pd(_mm256_castps256_ps128(self.0));
+            let high = _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0));
+            F64x4(_mm256_add_pd(low, high)).total()
         }
     }
 }

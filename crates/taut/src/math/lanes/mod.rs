@@ -2,100 +2,130 @@
 
 #[cfg(target_arch = "x86_64")]
 pub mod avx2;
+#[cfg(target_arch = "x86_64")]
+pub mod avx512;
 pub mod plain;
 
 use super::Real;
 
-/// Four doubles that move together. Every instruction set offers a type of its own; which one a run uses is
-/// decided at run time, and the physics never knows.
+/// Numbers that move together. Every instruction set offers types of its own; which ones a run uses is decided at run time, and
+/// the physics never knows.
 pub trait Lanes: Real {
-    /// Numbers side by side.
-    const N: usize = 4;
+    /// What stands in memory: `f64` or `f32`.
+    type E: Element;
 
-    /// Reads four consecutive numbers.
+    /// Numbers side by side; a multiple of four, at most [`MOST_LANES`].
+    const N: usize;
+
+    /// Reads `N` consecutive numbers.
     ///
     /// # Safety
-    /// `from` points at four readable doubles.
-    unsafe fn load(from: *const f64) -> Self;
+    /// `from` points at `N` readable numbers.
+    unsafe fn load(from: *const Self::E) -> Self;
 
-    /// Reads four consecutive numbers of single precision.
+    /// Reads `N` consecutive numbers of single precision.
     ///
     /// # Safety
-    /// `from` points at four readable floats.
+    /// `from` points at `N` readable floats.
     unsafe fn load_single(from: *const f32) -> Self;
 
-    /// Writes four consecutive numbers.
+    /// Writes `N` consecutive numbers.
     ///
     /// # Safety
-    /// `to` points at four writable doubles.
-    unsafe fn store(self, to: *mut f64);
+    /// `to` points at `N` writable numbers.
+    unsafe fn store(self, to: *mut Self::E);
 
-    /// Reads four consecutive numbers behind each of four addresses and transposes: lane `l` of word `k` is
-    /// what stands `k` behind `from[l]`.
+    /// Writes the lanes as double precision.
     ///
     /// # Safety
-    /// Each address points at four readable doubles.
-    unsafe fn transposed(from: [*const f64; 4]) -> [Self; 4];
+    /// `to` points at `N` writable doubles.
+    unsafe fn store_double(self, to: *mut f64);
+
+    /// Writes the lanes as single precision, rounded.
+    ///
+    /// # Safety
+    /// `to` points at `N` writable floats.
+    unsafe fn store_single(self, to: *mut f32);
+
+    /// Reads four consecutive numbers behind each of `N` addresses and transposes: lane `l` of word `k` is what stands `k`
+    /// behind `from(l)`.
+    ///
+    /// # Safety
+    /// Each address points at four readable numbers.
+    unsafe fn transposed(from: impl Fn(usize) -> *const Self::E) -> [Self; 4];
 
     /// The sum of the lanes, always added in the same order.
     fn total(self) -> f64;
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Most lanes of any type.
+pub const MOST_LANES: usize = 16;
 
-    fn exercise<V: Lanes>() {
-        let a: Vec<f64> = (0..16).map(|i| 0.3 + f64::from(i) * 0.21).collect();
-        let lane = |v: V| {
-            let mut out = [0.0; 4];
-            // SAFETY: `out` holds four doubles.
-            unsafe { v.store(out.as_mut_ptr()) };
-            out
-        };
-        // SAFETY: sixteen doubles behind the pointers used.
-        let (x, y) = unsafe { (V::load(a.as_ptr()), V::load(a.as_ptr().add(5))) };
-        let each = |name: &str, got: V, want: &dyn Fn(f64, f64) -> f64| {
-            for (l, g) in lane(got).into_iter().enumerate() {
-                let w = want(a[l], a[l + 5]);
-                // One fused rounding against two: 2 eps relative.
-                assert!((g - w).abs() <= 2.0 * f64::EPSILON * w.abs(), "{name} lane {l}: {g} {w}");
-            }
-        };
-        each("+", x + y, &|a, b| a + b);
-        each("-", x - y, &|a, b| a - b);
-        each("*", x * y, &|a, b| a * b);
-        each("/", x / y, &|a, b| a / b);
-        each("neg", -x, &|a, _| -a);
-        each("fma", x.mul_add(y, y), &|a, b| a * b + b);
-        each("sqrt", x.sqrt(), &|a, _| a.sqrt());
-        each("abs", (-x).abs(), &|a, _| a);
-        each("exp", x.exp(), &|a, _| a.exp());
-        each("ln", x.ln(), &|a, _| a.ln());
-        each("min", y.min(x), &|a, _| a);
-        each("max", y.max(x), &|_, b| b);
-        each("select", V::select(x.lt(V::of(0.6)), x, y), &|a, b| if a < 0.6 { a } else { b });
-        let single: Vec<f32> = (0..8u8).map(|i| f32::from(i) * 0.25).collect();
-        // SAFETY: eight floats behind the pointer.
-        assert_eq!(lane(unsafe { V::load_single(single.as_ptr().add(1)) }), [0.25, 0.5, 0.75, 1.0]);
-        assert!((x.total() - a[..4].iter().sum::<f64>()).abs() < 1e-15);
-        // SAFETY: each address is followed by at least four doubles.
-        let t = unsafe { V::transposed([0, 2, 4, 6].map(|o| a.as_ptr().add(o))) };
-        for (k, word) in t.into_iter().enumerate() {
-            assert_eq!(lane(word), [a[k], a[2 + k], a[4 + k], a[6 + k]]);
-        }
+/// A number in memory.
+pub trait Element: Real + Default {
+    /// From double precision, rounded.
+    fn from_f64(x: f64) -> Self;
+    /// To double precision.
+    fn to_f64(self) -> f64;
+}
+
+impl Element for f64 {
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
     }
-
-    #[test]
-    fn plain_lanes_behave_as_four_scalars() {
-        exercise::<plain::Plain4>();
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[test]
-    fn avx2_lanes_behave_as_four_scalars() {
-        if avx2::available() {
-            exercise::<avx2::F64x4>();
-        }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
     }
 }
+
+impl Element for f32 {
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x as Self
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// The four operators of a lane type, from intrinsics.
+#[cfg(target_arch = "x86_64")]
+macro_rules! operators {
+    ($lanes:ty: $($trait:ident $name:ident $intrinsic:ident),*) => {$(
+        impl $trait for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, o: Self) -> Self {
+                // SAFETY: the instructions are there (see module).
+                Self(unsafe { $intrinsic(self.0, o.0) })
+            }
+        }
+    )*};
+}
+
+/// Lane by lane, for the few functions that have no instruction.
+#[cfg(target_arch = "x86_64")]
+macro_rules! each_lane {
+    ($lanes:ty, $e:ty, $n:literal) => {
+        impl $lanes {
+            #[inline(always)]
+            fn each(self, f: impl Fn($e) -> $e) -> Self {
+                let mut a: [$e; $n] = [0.0; $n];
+                // SAFETY: as many numbers on the stack as lanes; the instructions are there (see module).
+                unsafe {
+                    self.store(a.as_mut_ptr());
+                    Self::load(a.map(f).as_ptr())
+                }
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+use {each_lane, operators};
+
+#[cfg(test)]
+mod tests;

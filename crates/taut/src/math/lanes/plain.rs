@@ -1,32 +1,41 @@
-//! Lanes without intrinsics: four doubles in an array, left to the compiler. Runs on every machine (on arm64 the
-//! compiler turns it into NEON, which is part of the base instruction set there).
+//! Lanes without intrinsics: numbers in an array, left to the compiler. Runs on every machine (on arm64 the compiler turns it into
+//! NEON, which is part of the base instruction set there).
 
 use super::Lanes;
 use crate::math::Real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Four doubles in an array.
+/// `N` numbers in an array.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub struct Plain4([f64; 4]);
+pub struct Plain<E, const N: usize>([E; N]);
 
-impl Plain4 {
+/// Four doubles.
+pub type Plain4 = Plain<f64, 4>;
+/// Eight floats.
+pub type PlainSingle8 = Plain<f32, 8>;
+
+impl<E: Copy, const N: usize> Plain<E, N> {
     #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let [a, b, c, d] = self.0;
-        Self([f(a), f(b), f(c), f(d)])
+    fn map(mut self, f: impl Fn(E) -> E) -> Self {
+        for l in 0..N {
+            self.0[l] = f(self.0[l]);
+        }
+        self
     }
 
     #[inline(always)]
-    fn zip(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let ([a, b, c, d], [p, q, r, s]) = (self.0, o.0);
-        Self([f(a, p), f(b, q), f(c, r), f(d, s)])
+    fn zip(mut self, o: Self, f: impl Fn(E, E) -> E) -> Self {
+        for l in 0..N {
+            self.0[l] = f(self.0[l], o.0[l]);
+        }
+        self
     }
 }
 
 macro_rules! operator {
     ($($trait:ident $name:ident $op:tt),*) => {$(
-        impl $trait for Plain4 {
+        impl<E: Real, const N: usize> $trait for Plain<E, N> {
             type Output = Self;
             #[inline(always)]
             fn $name(self, o: Self) -> Self {
@@ -37,7 +46,7 @@ macro_rules! operator {
 }
 operator!(Add add +, Sub sub -, Mul mul *, Div div /);
 
-impl Neg for Plain4 {
+impl<E: Real, const N: usize> Neg for Plain<E, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -45,11 +54,11 @@ impl Neg for Plain4 {
     }
 }
 
-impl Real for Plain4 {
-    type Mask = [bool; 4];
+impl<E: Real<Mask = bool>, const N: usize> Real for Plain<E, N> {
+    type Mask = [bool; N];
     #[inline(always)]
     fn of(x: f64) -> Self {
-        Self([x; 4])
+        Self([E::of(x); N])
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
@@ -57,67 +66,96 @@ impl Real for Plain4 {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.map(f64::sqrt)
+        self.map(E::sqrt)
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        self.map(f64::abs)
+        self.map(E::abs)
     }
     #[inline(always)]
     fn exp(self) -> Self {
-        self.map(f64::exp)
+        self.map(E::exp)
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        self.map(f64::ln)
+        self.map(E::ln)
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.zip(other, Real::min)
+        self.zip(other, E::min)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.zip(other, Real::max)
+        self.zip(other, E::max)
     }
     #[inline(always)]
-    fn lt(self, o: Self) -> [bool; 4] {
-        let (a, b) = (self.0, o.0);
-        [a[0] < b[0], a[1] < b[1], a[2] < b[2], a[3] < b[3]]
+    fn lt(self, other: Self) -> [bool; N] {
+        let mut mask = [false; N];
+        for l in 0..N {
+            mask[l] = self.0[l].lt(other.0[l]);
+        }
+        mask
     }
     #[inline(always)]
-    fn select(m: [bool; 4], yes: Self, no: Self) -> Self {
-        let (a, b) = (yes.0, no.0);
-        let pick = |l: usize| if m[l] { a[l] } else { b[l] };
-        Self([pick(0), pick(1), pick(2), pick(3)])
+    fn select(mask: [bool; N], mut yes: Self, no: Self) -> Self {
+        for l in 0..N {
+            yes.0[l] = E::select(mask[l], yes.0[l], no.0[l]);
+        }
+        yes
     }
 }
 
-impl Lanes for Plain4 {
-    #[inline(always)]
-    unsafe fn load(from: *const f64) -> Self {
-        // SAFETY: the caller vouches for four doubles.
-        Self(unsafe { from.cast::<[f64; 4]>().read_unaligned() })
-    }
-    #[inline(always)]
-    unsafe fn load_single(from: *const f32) -> Self {
-        // SAFETY: the caller vouches for four floats.
-        Self(unsafe { from.cast::<[f32; 4]>().read_unaligned() }.map(f64::from))
-    }
-    #[inline(always)]
-    unsafe fn store(self, to: *mut f64) {
-        // SAFETY: the caller vouches for four doubles.
-        unsafe { to.cast::<[f64; 4]>().write_unaligned(self.0) }
-    }
-    #[inline(always)]
-    unsafe fn transposed(from: [*const f64; 4]) -> [Self; 4] {
-        // SAFETY: the caller vouches for four doubles behind each address.
-        let [a, b, c, d] = unsafe { from.map(|p| Self::load(p).0) };
-        let word = |k: usize| Self([a[k], b[k], c[k], d[k]]);
-        [word(0), word(1), word(2), word(3)]
-    }
-    #[inline(always)]
-    fn total(self) -> f64 {
-        let [a, b, c, d] = self.0;
-        (a + c) + (b + d)
-    }
+macro_rules! lanes {
+    ($e:ty, $n:literal) => {
+        impl Lanes for Plain<$e, $n> {
+            type E = $e;
+            const N: usize = $n;
+
+            #[inline(always)]
+            unsafe fn load(from: *const $e) -> Self {
+                // SAFETY: the caller vouches for the numbers.
+                Self(unsafe { from.cast::<[$e; $n]>().read_unaligned() })
+            }
+            #[inline(always)]
+            unsafe fn load_single(from: *const f32) -> Self {
+                // SAFETY: the caller vouches for the floats.
+                Self(unsafe { from.cast::<[f32; $n]>().read_unaligned() }.map(<$e>::from))
+            }
+            #[inline(always)]
+            unsafe fn store(self, to: *mut $e) {
+                // SAFETY: the caller vouches for the numbers.
+                unsafe { to.cast::<[$e; $n]>().write_unaligned(self.0) }
+            }
+            #[inline(always)]
+            unsafe fn store_double(self, to: *mut f64) {
+                // SAFETY: the caller vouches for the doubles.
+                unsafe { to.cast::<[f64; $n]>().write_unaligned(self.0.map(f64::from)) }
+            }
+            #[inline(always)]
+            unsafe fn store_single(self, to: *mut f32) {
+                // SAFETY: the caller vouches for the floats.
+                unsafe { to.cast::<[f32; $n]>().write_unaligned(self.0.map(|x| x as f32)) }
+            }
+            #[inline(always)]
+            unsafe fn transposed(from: impl Fn(usize) -> *const $e) -> [Self; 4] {
+                let mut words = [Self([0.0; $n]); 4];
+                for l in 0..$n {
+                    // SAFETY: the caller vouches for four numbers behind each address.
+                    let record = unsafe { from(l).cast::<[$e; 4]>().read_unaligned() };
+                    for k in 0..4 {
+                        words[k].0[l] = record[k];
+                    }
+                }
+                words
+            }
+            #[inline(always)]
+            fn total(self) -> f64 {
+                // Halves first, as the registers do.
+                let half = |l: usize| f64::from(self.0[l]) + f64::from(self.0[l + $n / 2]);
+                (0..$n / 2).map(half).sum()
+            }
+        }
+    };
 }
+lanes!(f64, 4);
+lanes!(f32, 8);

@@ -1,89 +1,69 @@
-//! Threads times lanes. Particles are cut into fixed chunks, chunks go to threads, and inside a chunk the neighbours
-//! of one particle go through the lanes of a SIMD register, four at a time. Chunks and the order of every sum do not
-//! depend on the number of threads, so the result is bitwise the same for any.
+//! Threads times lanes. Particles are cut into fixed chunks, chunks go to threads, and inside a chunk neighbours or particles go
+//! through the lanes of a SIMD register. Chunks and the order of every sum do not depend on the number of threads, so the
+//! result is bitwise the same for any.
 //!
 //! Parallel loops use the rayon pool they are called from: a simulation enters one pool for its whole run.
 
+mod kit;
 mod list;
 mod places;
 mod stencil;
+mod store;
 mod walk;
 
-use super::{Relist, Run};
+pub use kit::{Double, InstructionSet, Precision, Single};
+
+use super::{Among, Relist, Run};
 use crate::field::{Quantity, Record};
 use crate::neighbours::{Adjacency, Lattice, Search, SearchError};
 use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
 use list::PairBlocks;
-use places::Places;
+use places::{PairPlaces, Shared};
 use rayon::prelude::*;
 use stencil::Stencil;
-use walk::{Chunk, Walk};
+use store::Store;
+use walk::{Chunk, Then, Updating, Walk};
 
 /// Particles that one thread takes at a time.
 const CHUNK: usize = 128;
 
-/// Blocks of a stencil that one thread takes at a time.
-const BLOCKS: usize = 32;
-
-/// The instruction set that the lanes use, chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// Whatever the base instruction set of the machine offers.
-    Plain,
-    /// AVX2 with fused multiply-add.
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-}
-
-impl InstructionSet {
-    /// The best of this machine.
-    #[must_use]
-    pub fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if crate::math::avx2_available() {
-            return Self::Avx2;
-        }
-        Self::Plain
-    }
-
-    /// Its name.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Plain => "plain",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => "avx2+fma",
-        }
-    }
-}
-
 /// A run on the processor's cores.
 #[derive(Debug)]
-pub struct Cpu<const D: usize> {
-    particles: Particles<D>,
+pub struct Cpu<const D: usize, P: Precision = Double> {
+    store: Store<D, P>,
     set: InstructionSet,
     search: Search<D>,
     adjacency: Adjacency,
     blocks: PairBlocks<D>,
     stencil: Option<Stencil<D>>,
     bodies: Vec<u32>,
-    records: Vec<f64>,
+    records: Vec<P::E>,
     partial: Vec<f64>,
 }
 
 impl<const D: usize> Cpu<D> {
-    /// A run over these particles with the best instruction set of this machine.
+    /// A run in double precision with the best instruction set of this machine.
     #[must_use]
     pub fn new(particles: Particles<D>) -> Self {
         Self::with(particles, InstructionSet::best())
     }
+}
 
+impl<const D: usize> Cpu<D, Single> {
+    /// A run in single precision with the best instruction set of this machine.
+    #[must_use]
+    pub fn single(particles: Particles<D>) -> Self {
+        Self::with(particles, InstructionSet::best())
+    }
+}
+
+impl<const D: usize, P: Precision> Cpu<D, P> {
     /// A run with a chosen instruction set (which the machine must have).
     #[must_use]
     pub fn with(particles: Particles<D>, set: InstructionSet) -> Self {
         Self {
-            particles,
+            store: Store::new(particles),
             set,
             search: Search::new(),
             adjacency: Adjacency::default(),
@@ -95,51 +75,50 @@ impl<const D: usize> Cpu<D> {
         }
     }
 
-    fn chunks(&self) -> usize {
-        self.particles.len().div_ceil(CHUNK)
-    }
-
-    /// Runs `walk` over all particles.
-    fn run(&self, walk: &(impl Walk + Sync)) {
-        self.cut(walk, self.particles.len(), CHUNK);
+    fn len(&self) -> usize {
+        self.store.particles().len()
     }
 
     /// Runs `walk` over `0..len` in chunks, in parallel, with the chosen lanes.
-    fn cut(&self, walk: &(impl Walk + Sync), len: usize, size: usize) {
+    fn cut(&self, walk: &(impl Walk<P::E> + Sync), len: usize, size: usize) {
         let set = self.set;
         (0..len.div_ceil(size)).into_par_iter().for_each(|c| {
             let chunk = Chunk { index: c, first: c * size, end: len.min((c + 1) * size) };
             match set {
-                InstructionSet::Plain => walk::plain(walk, &chunk),
+                InstructionSet::Plain => walk::plain::<_, P::Plain>(walk, &chunk),
                 // SAFETY: this variant is only chosen where the machine has AVX2 and FMA.
                 #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx2 => unsafe { walk::avx2(walk, &chunk) },
+                InstructionSet::Avx2 => unsafe { walk::avx2::<_, P::Avx2>(walk, &chunk) },
+                // SAFETY: this variant is only chosen where the machine has AVX-512.
+                #[cfg(target_arch = "x86_64")]
+                InstructionSet::Avx512 => unsafe { walk::avx512::<_, P::Avx512>(walk, &chunk) },
             }
         });
     }
 
     /// The stencil of the particles, if they stand on a lattice, row by row, and all have the same volume.
     fn lattice(&self, how: &Relist) -> Result<Option<Stencil<D>>, SearchError> {
-        let volume = self.particles.column(Quantity::Volume, 0);
+        let particles = self.store.particles();
+        let volume = particles.column(Quantity::Volume, 0);
         let equal = volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
         let one = self.bodies.iter().all(|&b| b == self.bodies[0]);
         if how.positions != Quantity::ReferencePosition || !equal || !one {
             return Ok(None);
         }
         let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
-        let lattice = Lattice::detect(self.particles.vector(how.positions), spacing)?;
+        let lattice = Lattice::detect(particles.vector(how.positions), spacing)?;
         let stored = lattice.filter(|l| l.rows().iter().enumerate().all(|(i, &a)| i == a as usize));
-        Ok(stored.map(|l| Stencil::new(&l, volume[0], &how.kernel)))
+        Ok(stored.map(|l| Stencil::new(&l, volume[0], &how.kernel, self.set.lanes::<P>())))
     }
 
     /// The pair loop over packed records and a list.
-    fn listed<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
-        let own =
-            Places::of::<P::Reads, D>(&mut self.particles).with::<D>(Quantity::Volume, &mut self.particles);
+    fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
+        let mut own = self.store.pair_places::<S::Reads>();
+        own.push(self.store.pair_column(Quantity::Volume, 0));
         let stride = own.len().next_multiple_of(4);
-        let len = self.particles.len();
+        let len = self.len();
         if self.records.len() < len * stride {
-            self.records.resize(len * stride, 0.0);
+            self.records.resize(len * stride, P::E::default());
         }
         self.records[..len * stride].par_chunks_mut(CHUNK * stride).enumerate().for_each(|(c, rows)| {
             for (i, row) in rows.chunks_exact_mut(stride).enumerate() {
@@ -147,65 +126,71 @@ impl<const D: usize> Cpu<D> {
                 unsafe { own.gather(c * CHUNK + i, row) };
             }
         });
-        let reads = Places::of::<U::Reads, D>(&mut self.particles);
-        let writes = Places::of::<U::Writes, D>(&mut self.particles);
         let (records, blocks) = (&self.records[..len * stride], &self.blocks);
-        self.run(&walk::Pairs { sum, then, reads, writes, records, stride, blocks, now });
+        self.cut(&walk::Listed { sum, then, records, stride, blocks, now }, len, CHUNK);
     }
 
-    /// The pair loop over a stencil. What the sum reads of neighbours must not change under it: if the update writes it, the sum
-    /// reads a copy.
-    fn stencilled<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(
+    /// The pair loop over a stencil. What the sum reads of neighbours must not change under it: if an update of `writes` follows, the
+    /// sum reads a copy.
+    fn stencilled<S: PairSum<D>>(
         &mut self,
         stencil: &Stencil<D>,
-        (sum, then): (&P, &U),
+        (sum, then, writes): (&S, Then<'_>, &[Quantity]),
         now: Now<f64>,
     ) {
-        let mut own = Places::of::<P::Reads, D>(&mut self.particles);
-        let reads = Places::of::<U::Reads, D>(&mut self.particles);
-        let writes = Places::of::<U::Writes, D>(&mut self.particles);
-        if P::Reads::FIELDS.iter().any(|field| U::Writes::FIELDS.contains(field)) {
+        let mut own = self.store.pair_places::<S::Reads>();
+        if S::Reads::FIELDS.iter().any(|field| writes.contains(field)) {
             own = self.copied(&own);
         }
-        let walk = walk::Stencils { sum, then, own, reads, writes, stencil, now };
-        self.cut(&walk, stencil.blocks.len(), BLOCKS);
+        let walk = walk::Stencilled { sum, then, own, stencil, now };
+        self.cut(&walk, stencil.blocks.len(), CHUNK / self.set.lanes::<P>());
     }
 
     /// A copy of a record's columns.
-    fn copied(&mut self, own: &Places) -> Places {
-        let len = self.particles.len();
+    fn copied(&mut self, own: &PairPlaces<P::E>) -> PairPlaces<P::E> {
+        let len = self.len();
         let stride = len + 48;
-        self.records.resize(self.records.len().max(own.len() * stride + 16), 0.0);
+        let room = self.records.len().max(own.len() * stride + 32);
+        self.records.resize(room, P::E::default());
         for k in 0..own.len() {
             // SAFETY: columns are `len` long and nobody writes them here.
             let column = unsafe { own.column(k, len) };
-            self.records[8 + k * stride..8 + k * stride + len].copy_from_slice(column);
+            self.records[16 + k * stride..16 + k * stride + len].copy_from_slice(column);
         }
         // SAFETY: the buffer was made for just these columns, with room before and after.
-        unsafe { own.elsewhere(self.records.as_mut_ptr().add(8), stride) }
+        unsafe { own.elsewhere(self.records.as_mut_ptr().add(16), stride) }
     }
 }
 
-impl<const D: usize> Run<D> for Cpu<D> {
+impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     fn particles(&self) -> &Particles<D> {
-        &self.particles
+        self.store.particles()
     }
 
     fn particles_mut(&mut self) -> &mut Particles<D> {
-        &mut self.particles
+        self.store.particles_mut()
+    }
+
+    fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
+        self.store.word(field, word, place)
+    }
+
+    fn set_word(&mut self, field: Quantity, word: usize, (place, value): (usize, f64)) {
+        self.store.set_word(field, word, (place, value));
     }
 
     fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {
-        let x = self.particles.vector(how.positions);
-        let radius = how.kernel.support();
+        self.store.settle(Quantity::Volume);
+        let particles = self.store.particles();
         self.bodies.clear();
-        self.bodies.extend(self.particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
-        let same = (how.among == super::Among::SameBody).then_some(self.bodies.as_slice());
-        self.search.pairs(x, radius, same, &mut self.adjacency)?;
+        self.bodies.extend(particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
+        let same = (how.among == Among::SameBody).then_some(self.bodies.as_slice());
+        let x = particles.vector(how.positions);
+        self.search.pairs(x, how.kernel.support(), same, &mut self.adjacency)?;
         self.stencil = self.lattice(how)?;
         if self.stencil.is_none() {
-            let x = self.particles.vector(how.positions);
-            self.blocks.build(&self.adjacency, x, &how.kernel);
+            let x = self.store.particles().vector(how.positions);
+            self.blocks.build(&self.adjacency, x, &how.kernel, self.set.lanes::<P>());
         }
         Ok(())
     }
@@ -214,27 +199,31 @@ impl<const D: usize> Run<D> for Cpu<D> {
         &self.adjacency
     }
 
-    fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
+    fn pairs<S: PairSum<D>, U: Update<D, Sum = S::Adds>>(&mut self, sum: &S, then: &U, now: Now<f64>) {
+        // Single copies that the sum reads must exist before the update learns where to write.
+        let _ = self.store.pair_places::<S::Reads>();
+        let (reads, writes) = (self.store.places::<U::Reads>(), self.store.places::<U::Writes>());
+        let updating = Updating { then, reads: &reads, writes: &writes, now };
+        let after = Then::new::<P, U, D>(&updating, self.set);
         match self.stencil.take() {
             Some(stencil) => {
-                self.stencilled(&stencil, (sum, then), now);
+                self.stencilled(&stencil, (sum, after, U::Writes::FIELDS), now);
                 self.stencil = Some(stencil);
             }
-            None => self.listed(sum, then, now),
+            None => self.listed(sum, after, now),
         }
     }
 
     fn each<U: Update<D, Sum = ()>>(&mut self, update: &U, now: Now<f64>) {
-        let reads = Places::of::<U::Reads, D>(&mut self.particles);
-        let writes = Places::of::<U::Writes, D>(&mut self.particles);
-        self.run(&walk::Each::<U, D> { update, reads, writes, now });
+        let (reads, writes) = (self.store.places::<U::Reads>(), self.store.places::<U::Writes>());
+        self.cut(&walk::Each::<U, D> { update, reads, writes, now }, self.len(), CHUNK);
     }
 
     fn reduce<R: Reduce<D, K>, const K: usize>(&mut self, reduce: &R) -> [f64; K] {
-        let reads = Places::of::<R::Reads, D>(&mut self.particles);
-        self.partial.resize(self.chunks() * K, 0.0);
-        let partial = places::Shared::new(&mut self.partial);
-        self.run(&walk::Fold::<R, D, K> { reduce, reads, partial });
+        let reads = self.store.places::<R::Reads>();
+        self.partial.resize(self.len().div_ceil(CHUNK) * K, 0.0);
+        let partial = Shared::new(&mut self.partial);
+        self.cut(&walk::Fold::<R, D, K> { reduce, reads, partial }, self.len(), CHUNK);
         let mut out = R::FOLDS.map(crate::pass::Fold::start);
         for chunk in self.partial.chunks_exact(K) {
             for k in 0..K {

@@ -1,60 +1,58 @@
 //! Where the numbers of a record stand in memory, so that chunks can be read and written from several threads.
 
 use crate::field::{Quantity, Record, Sink, Source};
-use crate::math::Lanes;
-use crate::particles::Particles;
+use crate::math::{Element, Lanes, MOST_LANES};
 use crate::run::MAX_WORDS;
 
-/// A pointer that threads share. Sound because every thread reads and writes its own chunk only.
+/// A pointer that threads share. Sound because every thread writes its own chunk only, and what a pair sum reads of others is not
+/// written meanwhile.
 #[derive(Clone, Copy, Debug)]
-pub struct Shared(*mut f64);
+pub struct Shared<E>(*mut E);
 
 // SAFETY: see above; each use states which elements it touches.
-unsafe impl Send for Shared {}
+unsafe impl<E> Send for Shared<E> {}
 // SAFETY: as above.
-unsafe impl Sync for Shared {}
+unsafe impl<E> Sync for Shared<E> {}
 
-impl Shared {
+impl<E> Shared<E> {
     /// Shares a slice.
-    pub fn new(slice: &mut [f64]) -> Self {
+    pub fn new(slice: &mut [E]) -> Self {
         Self(slice.as_mut_ptr())
     }
 
     /// # Safety
     /// `i` is inside the slice, and no other thread touches element `i` meanwhile.
     #[inline(always)]
-    pub unsafe fn set(self, i: usize, x: f64) {
+    pub unsafe fn set(self, i: usize, x: E) {
         // SAFETY: the caller's promise.
         unsafe { self.0.add(i).write(x) }
     }
 }
 
-/// The columns of a record.
+/// What a pair sum reads: columns of one precision.
 #[derive(Clone, Copy, Debug)]
-pub struct Places {
-    columns: [Shared; MAX_WORDS],
+pub struct PairPlaces<E> {
+    columns: [Shared<E>; MAX_WORDS],
     len: usize,
 }
 
-impl Places {
-    /// Finds the columns of record `R`.
-    pub fn of<R: Record<D>, const D: usize>(particles: &mut Particles<D>) -> Self {
-        assert!(R::WORDS <= MAX_WORDS, "a record of {} numbers is too wide", R::WORDS);
-        let mut at = [0; MAX_WORDS];
-        particles.each_column::<R>(|k, column| at[k] = column);
-        let mut columns = [Shared(std::ptr::null_mut()); MAX_WORDS];
-        for k in 0..R::WORDS {
-            columns[k] = Shared(particles.nth_ptr(at[k]));
+impl<E: Element> PairPlaces<E> {
+    /// The columns of record `R`; `column(field, word)` says where each starts.
+    pub fn of<R: Record<D>, const D: usize>(mut column: impl FnMut(Quantity, usize) -> *mut E) -> Self {
+        let mut new = Self { columns: [Shared(std::ptr::null_mut()); MAX_WORDS], len: 0 };
+        for &field in R::FIELDS {
+            for word in 0..field.rank().words(D) {
+                new.push(column(field, word));
+            }
         }
-        Self { columns, len: R::WORDS }
+        new
     }
 
-    /// The same with one more scalar at the end.
-    pub fn with<const D: usize>(mut self, field: Quantity, particles: &mut Particles<D>) -> Self {
+    /// Adds a column.
+    pub fn push(&mut self, column: *mut E) {
         assert!(self.len < MAX_WORDS, "a record of {} numbers is too wide", self.len + 1);
-        self.columns[self.len] = Shared(particles.nth_ptr(particles.place(field)));
+        self.columns[self.len] = Shared(column);
         self.len += 1;
-        self
     }
 
     /// How many numbers.
@@ -67,20 +65,18 @@ impl Places {
     /// # Safety
     /// `a` is a particle, and nobody writes its record meanwhile.
     #[inline(always)]
-    pub unsafe fn gather(&self, a: usize, row: &mut [f64]) {
+    pub unsafe fn gather(&self, a: usize, row: &mut [E]) {
         for k in 0..self.len.min(row.len()) {
             // SAFETY: the caller's promise.
             row[k] = unsafe { self.columns[k].0.add(a).read() };
         }
     }
-}
 
-impl Places {
     /// The same record elsewhere: column `k` starts at `first + k * stride` of a buffer.
     ///
     /// # Safety
     /// The buffer holds that many columns, with room for lanes before and after each.
-    pub unsafe fn elsewhere(&self, first: *mut f64, stride: usize) -> Self {
+    pub unsafe fn elsewhere(&self, first: *mut E, stride: usize) -> Self {
         let mut moved = *self;
         for k in 0..self.len {
             // SAFETY: the caller's promise.
@@ -93,68 +89,118 @@ impl Places {
     ///
     /// # Safety
     /// The column is that long, and nobody writes it meanwhile.
-    pub unsafe fn column(&self, k: usize, len: usize) -> &[f64] {
+    pub unsafe fn column(&self, k: usize, len: usize) -> &[E] {
         // SAFETY: the caller's promise.
         unsafe { std::slice::from_raw_parts(self.columns[k].0, len) }
     }
 }
 
-/// Four consecutive particles, of which only the first few belong to this block: the others are neither read nor written.
-pub struct Some4<'a>(pub &'a Places, pub usize, pub usize);
+/// Consecutive particles from this one on, in the lanes of a pair sum.
+pub struct Row<'a, E>(pub &'a PairPlaces<E>, pub usize);
 
-// SAFETY: as below.
-impl<V: Lanes> Source<V> for Some4<'_> {
+impl<V: Lanes> Source<V> for Row<'_, V::E> {
     #[inline(always)]
     fn get(&self, k: usize) -> V {
-        unsafe {
-            let first = self.0.columns.get_unchecked(k).0.add(self.1);
-            let lane = |l: usize| first.add(if l < self.2 { l } else { 0 }).read();
-            V::load([lane(0), lane(1), lane(2), lane(3)].as_ptr())
-        }
-    }
-}
-impl<V: Lanes> Sink<V> for Some4<'_> {
-    #[inline(always)]
-    fn put(&mut self, k: usize, x: V) {
-        let mut lanes = [0.0; 4];
-        unsafe {
-            x.store(lanes.as_mut_ptr());
-            let first = self.0.columns.get_unchecked(k).0.add(self.1);
-            for (l, &value) in lanes.iter().enumerate().take(self.2) {
-                first.add(l).write(value);
-            }
-        }
-    }
-}
-
-/// Four consecutive particles.
-pub struct Four<'a>(pub &'a Places, pub usize);
-/// One particle.
-pub struct One<'a>(pub &'a Places, pub usize);
-
-// SAFETY of the blocks below: whoever makes a `Four` or `One` has checked that the particles exist and belong to the
-// chunk of this thread, and `k` is below the width of the record the places were made for.
-impl<V: Lanes> Source<V> for Four<'_> {
-    #[inline(always)]
-    fn get(&self, k: usize) -> V {
+        // SAFETY: particles and guard are readable around every particle, and `k` is below the width of the record.
         unsafe { V::load(self.0.columns.get_unchecked(k).0.add(self.1)) }
     }
 }
-impl<V: Lanes> Sink<V> for Four<'_> {
-    #[inline(always)]
-    fn put(&mut self, k: usize, x: V) {
-        unsafe { x.store(self.0.columns.get_unchecked(k).0.add(self.1)) }
+
+/// Where one number of a particle lives.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// In double precision, or null.
+    pub double: *mut f64,
+    /// In single precision, or null.
+    pub single: *mut f32,
+}
+
+/// What an update reads or writes. In a double run all columns are double; in a single run state is double (and single beside it, where
+/// pair sums read it), everything else single.
+#[derive(Clone, Copy, Debug)]
+pub struct Places {
+    columns: [Column; MAX_WORDS],
+}
+
+// SAFETY: as `Shared`.
+unsafe impl Send for Places {}
+// SAFETY: as `Shared`.
+unsafe impl Sync for Places {}
+
+impl Places {
+    /// The columns of record `R`.
+    pub fn of<R: Record<D>, const D: usize>(mut column: impl FnMut(Quantity, usize) -> Column) -> Self {
+        assert!(R::WORDS <= MAX_WORDS, "a record of {} numbers is too wide", R::WORDS);
+        let nowhere = Column { double: std::ptr::null_mut(), single: std::ptr::null_mut() };
+        let mut columns = [nowhere; MAX_WORDS];
+        let mut k = 0;
+        for &field in R::FIELDS {
+            for word in 0..field.rank().words(D) {
+                columns[k] = column(field, word);
+                k += 1;
+            }
+        }
+        Self { columns }
     }
 }
-impl Source<f64> for One<'_> {
+
+/// Some consecutive particles: `count` of them from `first` on. `MIXED` says whether columns may be single.
+pub struct Some<'a, const MIXED: bool> {
+    pub places: &'a Places,
+    pub first: usize,
+    pub count: usize,
+}
+
+// SAFETY of the blocks below: whoever makes a `Some` has checked that the particles exist and belong to the chunk of this
+// thread; `k` is below the width of the record the places were made for; of a column that is not double the single one exists.
+impl<U: Lanes<E = f64>, const MIXED: bool> Source<U> for Some<'_, MIXED> {
     #[inline(always)]
-    fn get(&self, k: usize) -> f64 {
-        unsafe { self.0.columns.get_unchecked(k).0.add(self.1).read() }
+    fn get(&self, k: usize) -> U {
+        unsafe {
+            let column = self.places.columns.get_unchecked(k);
+            let single = MIXED && column.double.is_null();
+            if self.count == U::N {
+                return if single {
+                    U::load_single(column.single.add(self.first))
+                } else {
+                    U::load(column.double.add(self.first))
+                };
+            }
+            let mut lanes = [0.0; MOST_LANES];
+            for (l, lane) in lanes.iter_mut().enumerate().take(U::N) {
+                let a = self.first + if l < self.count { l } else { 0 };
+                *lane =
+                    if single { f64::from(column.single.add(a).read()) } else { column.double.add(a).read() };
+            }
+            U::load(lanes.as_ptr())
+        }
     }
 }
-impl Sink<f64> for One<'_> {
+
+impl<U: Lanes<E = f64>, const MIXED: bool> Sink<U> for Some<'_, MIXED> {
     #[inline(always)]
-    fn put(&mut self, k: usize, x: f64) {
-        unsafe { self.0.columns.get_unchecked(k).0.add(self.1).write(x) }
+    fn put(&mut self, k: usize, x: U) {
+        unsafe {
+            let column = self.places.columns.get_unchecked(k);
+            if self.count == U::N {
+                if !MIXED || !column.double.is_null() {
+                    x.store(column.double.add(self.first));
+                }
+                if MIXED && !column.single.is_null() {
+                    x.store_single(column.single.add(self.first));
+                }
+                return;
+            }
+            let mut lanes = [0.0; MOST_LANES];
+            x.store(lanes.as_mut_ptr());
+            for (l, &value) in lanes.iter().enumerate().take(self.count) {
+                if !column.double.is_null() {
+                    column.double.add(self.first + l).write(value);
+                }
+                if MIXED && !column.single.is_null() {
+                    column.single.add(self.first + l).write(value as f32);
+                }
+            }
+        }
     }
 }

@@ -7,34 +7,17 @@
 //! the code book:       code -> grad W, W'/r, e of one cell of the stencil
 //! ```
 //!
-//! A block is four consecutive particles of a row (fewer at its end). The neighbours of a block in one cell of the stencil are
+//! A block is as many consecutive particles of a row as there are lanes (fewer at its end). The neighbours of a block in one cell of the stencil are
 //! consecutive too, so they are loaded without indices. Where some are missing, the entry says which lanes count, and
 //! the weights of the others are zero; where all are missing there is no entry. Blocks whose neighbourhoods look alike share one
 //! program: a few dozen in a box. Reason: no pair data to stream, no shuffles; the loop is bound by arithmetic.
 
 use crate::kernel::Kernel;
-use crate::math::{Lanes, Vector};
+use crate::math::{Element, Lanes, MOST_LANES, Vector};
 use crate::neighbours::Lattice;
 use crate::pass::Pair;
 use std::collections::HashMap;
 use std::ops::Range;
-
-/// Lanes that count, as factors: `MASKS[m][l]` is 1 if bit `l` of `m` is set.
-static MASKS: [[f64; 4]; 16] = masks();
-
-const fn masks() -> [[f64; 4]; 16] {
-    let mut all = [[0.0; 4]; 16];
-    let mut m = 0;
-    while m < 16 {
-        let mut l = 0;
-        while l < 4 {
-            all[m][l] = ((m >> l) & 1) as f64;
-            l += 1;
-        }
-        m += 1;
-    }
-    all
-}
 
 /// One cell of the stencil.
 #[derive(Clone, Copy, Debug)]
@@ -48,12 +31,20 @@ struct Code<const D: usize> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Entry {
     /// From the first particle of the block to the first of its neighbours.
-    pub delta: i32,
+    delta: i32,
     code: u16,
     mask: u16,
 }
 
-/// Four (or fewer) consecutive particles of a row.
+impl Entry {
+    /// The first of the neighbours of a block.
+    #[inline(always)]
+    pub fn of(&self, block: &Block) -> usize {
+        (block.first as i32 + self.delta) as usize
+    }
+}
+
+/// Consecutive particles of a row.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     /// The first.
@@ -63,9 +54,9 @@ pub struct Block {
     program: u32,
 }
 
-/// Entries of a program, sorted: for each set of weights that may be other than zero, those whose lanes all count, then the others.
-/// Sets of one weight come first (an entry stands in each that applies), then whole patterns.
-const LISTS: usize = 2 * (4 + 16);
+/// Lists of entries of a program. Of those whose lanes all count: one list for each weight (an entry stands in each that applies), one
+/// for each whole pattern. Then one list of those whose lanes do not all count.
+const LISTS: usize = 4 + 16 + 1;
 
 type Lists = [Range<u32>; LISTS];
 
@@ -77,17 +68,19 @@ pub struct Stencil<const D: usize> {
     programs: Vec<Lists>,
     /// All blocks, in order.
     pub blocks: Vec<Block>,
+    /// Most particles of a block.
+    lanes: usize,
 }
 
 impl<const D: usize> Stencil<D> {
     /// The stencil of particles stored row by row along the long axis of the lattice, all of the same volume.
-    pub fn new(lattice: &Lattice<D>, volume: f64, kernel: &Kernel) -> Self {
-        let mut new =
-            Self { codes: Vec::new(), entries: Vec::new(), programs: Vec::new(), blocks: Vec::new() };
+    pub fn new(lattice: &Lattice<D>, volume: f64, kernel: &Kernel, lanes: usize) -> Self {
+        let (codes, entries, programs) = (Vec::new(), Vec::new(), Vec::new());
+        let mut new = Self { codes, entries, programs, blocks: Vec::new(), lanes };
         let offsets = new.book(lattice, volume, kernel);
         let rows = Rows::new(lattice);
         let mut known: HashMap<(usize, Vec<Entry>), u32> = HashMap::new();
-        for (first, active) in rows.blocks() {
+        for (first, active) in rows.blocks(new.lanes) {
             let entries = rows.entries((first, active), &offsets);
             let program = match known.get(&(active, entries.clone())) {
                 Some(&program) => program,
@@ -128,18 +121,20 @@ impl<const D: usize> Stencil<D> {
 
     /// Sorts the entries of a program into its lists.
     fn compile(&mut self, entries: &[Entry], active: usize) -> u32 {
-        let all = (1u16 << active) - 1;
+        let all = u16::MAX >> (16 - active);
         let pattern = |entry: &Entry| -> usize {
             let g = self.codes[usize::from(entry.code)].grad_w;
             8 | (0..D).filter(|&i| g[i] != 0.0).fold(0, |m, i| m | 1 << i)
         };
         let mut sorted = Vec::new();
         let lists = std::array::from_fn(|list| {
-            let (set, full) = (list / 2, list % 2 == 0);
             let belongs = |entry: &&Entry| {
-                let m = pattern(entry);
-                let fits = if set < 4 { m >> set & 1 == 1 } else { m == set - 4 };
-                fits && (entry.mask == all) == full
+                let (m, full) = (pattern(entry), entry.mask == all);
+                match list {
+                    0..4 => full && m >> list & 1 == 1,
+                    4..20 => full && m == list - 4,
+                    _ => !full,
+                }
             };
             let start = self.entries.len() + sorted.len();
             sorted.extend(entries.iter().filter(belongs));
@@ -150,13 +145,25 @@ impl<const D: usize> Stencil<D> {
         (self.programs.len() - 1) as u32
     }
 
-    /// The entries of a block for the weights `M` (one weight, or a whole pattern): those in all lanes, and those in some.
+    /// The entries of a block for the weights `M` (one weight, or a whole pattern) that count in all lanes.
     #[inline(always)]
-    pub fn lists<const M: u8>(&self, block: &Block) -> (&[Entry], &[Entry]) {
-        let set = const { if M.is_power_of_two() { M.trailing_zeros() as usize } else { 4 + M as usize } };
-        let lists = &self.programs[block.program as usize];
-        let range = |r: &Range<u32>| r.start as usize..r.end as usize;
-        (&self.entries[range(&lists[2 * set])], &self.entries[range(&lists[2 * set + 1])])
+    pub fn full<const M: u8>(&self, block: &Block) -> &[Entry] {
+        self.list(
+            block,
+            const { if M.is_power_of_two() { M.trailing_zeros() as usize } else { 4 + M as usize } },
+        )
+    }
+
+    /// The entries of a block that count in some lanes only.
+    #[inline(always)]
+    pub fn partial(&self, block: &Block) -> &[Entry] {
+        self.list(block, LISTS - 1)
+    }
+
+    #[inline(always)]
+    fn list(&self, block: &Block, list: usize) -> &[Entry] {
+        let range = &self.programs[block.program as usize][list];
+        &self.entries[range.start as usize..range.end as usize]
     }
 
     /// The pair of an entry, in all lanes.
@@ -177,8 +184,12 @@ impl<const D: usize> Stencil<D> {
     #[inline(always)]
     pub fn masked<V: Lanes, const M: u8>(&self, entry: &Entry) -> Pair<V, D, M> {
         let pair = self.pair::<V, M>(entry);
-        // SAFETY: four numbers.
-        let mask = unsafe { V::load(MASKS[usize::from(entry.mask & 15)].as_ptr()) };
+        let mut lanes = [V::E::default(); MOST_LANES];
+        for (l, lane) in lanes.iter_mut().enumerate() {
+            *lane = V::E::from_f64(f64::from(entry.mask >> l & 1));
+        }
+        // SAFETY: as many numbers as any type has lanes.
+        let mask = unsafe { V::load(lanes.as_ptr()) };
         Pair { grad_w: pair.grad_w.times(mask), w: pair.w * mask, e: pair.e }
     }
 }
@@ -203,8 +214,8 @@ impl<const D: usize> Rows<D> {
         Self { cells: lattice.cells.clone(), rows, long }
     }
 
-    /// Runs of up to four particles without a gap.
-    fn blocks(&self) -> Vec<(usize, usize)> {
+    /// Runs of up to `lanes` particles without a gap.
+    fn blocks(&self, lanes: usize) -> Vec<(usize, usize)> {
         let mut blocks = Vec::new();
         let mut first = 0;
         while first < self.cells.len() {
@@ -213,7 +224,7 @@ impl<const D: usize> Rows<D> {
                 cell[self.long] += l as i32;
                 self.cells.get(first + l) == Some(&cell)
             };
-            let active = (1..4).take_while(|&l| follows(l)).count() + 1;
+            let active = (1..lanes).take_while(|&l| follows(l)).count() + 1;
             blocks.push((first, active));
             first += active;
         }

@@ -1,0 +1,188 @@
+//! Bodies by name: the match over formulations, materials, dimensions and precisions. Compiled here, once.
+
+use super::Solver;
+use super::particles::{Point, total, updated};
+use crate::formulation::Formulation;
+use crate::formulation::total::{HourglassFree, Nested};
+use crate::formulation::updated::{self as updated_forms, Hypoelastic, NonHourglass};
+use crate::integrator::{TotalOptions, UpdatedOptions};
+use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
+use crate::run::{Cpu, Double, InstructionSet, Single};
+
+/// Points of two or three dimensions.
+#[derive(Clone, Copy, Debug)]
+pub enum Points<'a> {
+    /// In the plane.
+    Two(&'a [Point<2>]),
+    /// In space.
+    Three(&'a [Point<3>]),
+}
+
+/// Points of a dimension that bodies may have.
+pub trait InSpace: Sized {
+    /// The points, with their dimension as a value.
+    fn points(points: &[Self]) -> Points<'_>;
+}
+
+impl InSpace for Point<2> {
+    fn points(points: &[Self]) -> Points<'_> {
+        Points::Two(points)
+    }
+}
+
+impl InSpace for Point<3> {
+    fn points(points: &[Self]) -> Points<'_> {
+        Points::Three(points)
+    }
+}
+
+/// In what numbers a body is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Numbers {
+    /// Double precision.
+    #[default]
+    Double,
+    /// Pair sums in single precision; what is integrated in time, and all updates, in double.
+    Single,
+}
+
+/// A hyperelastic material.
+#[derive(Clone, Copy, Debug)]
+pub enum Law {
+    /// TL Eqs. (10)-(14).
+    NeoHookean(NeoHookean),
+    /// TL Eqs. (7), (8).
+    NeoHookeanLog(NeoHookeanLog),
+    /// TL Eq. (5).
+    SaintVenantKirchhoff(SaintVenantKirchhoff),
+}
+
+impl Law {
+    fn moduli(&self) -> Moduli {
+        match self {
+            Self::NeoHookean(m) => m.moduli(),
+            Self::NeoHookeanLog(m) => m.moduli(),
+            Self::SaintVenantKirchhoff(m) => m.moduli(),
+        }
+    }
+}
+
+/// A total Lagrangian formulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TotalForm {
+    /// `tl-hourglass-free`.
+    HourglassFree,
+    /// `tl-nested`.
+    Nested,
+}
+
+/// An updated Lagrangian formulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpdatedForm {
+    /// `ul-non-hourglass`.
+    NonHourglass,
+    /// `ul-nested`.
+    Nested,
+}
+
+/// A total Lagrangian body; `None` if the formulation cannot carry the material.
+#[must_use]
+pub fn total_body(
+    points: Points<'_>,
+    (form, law): (TotalForm, Law),
+    options: TotalOptions,
+    numbers: Numbers,
+) -> Option<Box<dyn Solver>> {
+    let h = options.kernel.h();
+    let body = TotalBody { points, moduli: law.moduli(), options, numbers };
+    Some(match (form, law) {
+        (TotalForm::HourglassFree, Law::NeoHookean(m)) => body.with(HourglassFree::new(m, h)),
+        (TotalForm::HourglassFree, Law::NeoHookeanLog(m)) => body.with(HourglassFree::new(m, h)),
+        (TotalForm::HourglassFree, Law::SaintVenantKirchhoff(_)) => return None,
+        (TotalForm::Nested, Law::NeoHookean(m)) => body.with(Nested::new(m, h)),
+        (TotalForm::Nested, Law::NeoHookeanLog(m)) => body.with(Nested::new(m, h)),
+        (TotalForm::Nested, Law::SaintVenantKirchhoff(m)) => body.with(Nested::new(m, h)),
+    })
+}
+
+struct TotalBody<'a> {
+    points: Points<'a>,
+    moduli: Moduli,
+    options: TotalOptions,
+    numbers: Numbers,
+}
+
+impl TotalBody<'_> {
+    fn with<F: Formulation<2> + Formulation<3> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
+        match self.points {
+            Points::Two(points) => self.of::<2, F>(points, formulation),
+            Points::Three(points) => self.of::<3, F>(points, formulation),
+        }
+    }
+
+    fn of<const D: usize, F: Formulation<D> + 'static>(
+        &self,
+        points: &[Point<D>],
+        formulation: F,
+    ) -> Box<dyn Solver> {
+        let (options, set) = (self.options, InstructionSet::best());
+        let form = (formulation, self.moduli);
+        match self.numbers {
+            Numbers::Double => Box::new(total(points, form, options, |p| Cpu::<D, Double>::with(p, set))),
+            Numbers::Single => Box::new(total(points, form, options, |p| Cpu::<D, Single>::with(p, set))),
+        }
+    }
+}
+
+/// Updated Lagrangian bodies, each with the moduli of its index. The acoustic step is that of the formulation.
+pub fn updated_bodies(
+    points: Points<'_>,
+    (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
+    options: UpdatedOptions,
+    numbers: Numbers,
+) -> Box<dyn Solver> {
+    match points {
+        Points::Two(points) => updated_of::<2>(points, (form, stress, moduli), options, numbers),
+        Points::Three(points) => updated_of::<3>(points, (form, stress, moduli), options, numbers),
+    }
+}
+
+fn updated_of<const D: usize>(
+    points: &[Point<D>],
+    (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
+    options: UpdatedOptions,
+    numbers: Numbers,
+) -> Box<dyn Solver> {
+    let body = UpdatedBodies { points, moduli, options, numbers };
+    match form {
+        UpdatedForm::NonHourglass => {
+            let form = NonHourglass::new(stress, D);
+            let speed = |p: &Point<D>| form.shear_speed(&moduli(p.body), D);
+            let shear_speed = points.iter().map(speed).fold(0.0, f64::max);
+            UpdatedBodies { options: UpdatedOptions { shear_speed, ..options }, ..body }.with(form)
+        }
+        UpdatedForm::Nested => body.with(updated_forms::Nested { stress }),
+    }
+}
+
+struct UpdatedBodies<'a, const D: usize> {
+    points: &'a [Point<D>],
+    moduli: &'a dyn Fn(u32) -> Moduli,
+    options: UpdatedOptions,
+    numbers: Numbers,
+}
+
+impl<const D: usize> UpdatedBodies<'_, D> {
+    fn with<F: Formulation<D> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
+        let (options, set) = (self.options, InstructionSet::best());
+        let form = (formulation, self.moduli);
+        match self.numbers {
+            Numbers::Double => {
+                Box::new(updated(self.points, form, options, |p| Cpu::<D, Double>::with(p, set)))
+            }
+            Numbers::Single => {
+                Box::new(updated(self.points, form, options, |p| Cpu::<D, Single>::with(p, set)))
+            }
+        }
+    }
+}
