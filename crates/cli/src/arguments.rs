@@ -56,7 +56,7 @@ pub struct RunOptions {
     /// No progress, no messages
     #[arg(long, short)]
     pub quiet: bool,
-    /// Precision of the pair sums [default: double]; what is integrated in time is always double
+    /// Precision of the arithmetic (later)
     #[arg(long, value_name = "double|single")]
     pub precision: Option<String>,
     /// Go on from the last checkpoint (later)

@@ -9,15 +9,13 @@ use case::Case;
 use case::run::{RunError, Settings, run as run_case};
 use output::Summary;
 use std::path::PathBuf;
-use taut::simulation::Numbers;
 
 /// Runs a case, draws its pictures, says where everything is.
 pub fn run(options: &RunOptions) -> Result<(), Failure> {
     refuse_later(options)?;
     let case = read(&options.case)?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&case.name));
-    let settings =
-        Settings { out: out.clone(), threads: options.threads.map(usize::from), numbers: numbers(options)? };
+    let settings = Settings { out: out.clone(), threads: options.threads.map(usize::from) };
     let mut watcher = Watcher::new(options.quiet);
     if !options.quiet {
         eprint!("{}", case.render_warnings(colour()));
@@ -41,19 +39,19 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
 }
 
 fn refuse_later(options: &RunOptions) -> Result<(), Failure> {
+    match options.precision.as_deref() {
+        None | Some("double") => {}
+        Some("single") => {
+            return Err(Failure::Input("single precision comes in a later version.".to_string()));
+        }
+        Some(other) => {
+            return Err(Failure::Input(format!("`--precision {other}`: expected double or single.")));
+        }
+    }
     if options.resume {
         return Err(Failure::Input("`--resume` comes in a later version.".to_string()));
     }
     Ok(())
-}
-
-/// In what numbers to compute.
-fn numbers(options: &RunOptions) -> Result<Numbers, Failure> {
-    match options.precision.as_deref() {
-        None | Some("double") => Ok(Numbers::Double),
-        Some("single") => Ok(Numbers::Single),
-        Some(other) => Err(Failure::Input(format!("`--precision {other}`: expected double or single."))),
-    }
 }
 
 fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {

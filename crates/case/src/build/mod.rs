@@ -9,7 +9,7 @@ mod solvers;
 pub use observe::{Observed, ProbePoint, Watch};
 
 use crate::{Case, CaseError};
-use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Drive, InSpace, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -35,25 +35,24 @@ impl Built {
     }
 }
 
-/// Builds the particles, formulations, drives and probes of a case, to be computed in `numbers`.
+/// Builds the particles, formulations, drives and probes of a case.
 ///
 /// # Errors
 /// What shows only now: a body without particles, a boundary that holds nobody, a probe outside of its body.
-pub fn build(case: &Case, numbers: Numbers) -> Result<Built, CaseError> {
+pub fn build(case: &Case) -> Result<Built, CaseError> {
     match case.dimension {
-        2 => in_dimension::<2>(case, numbers),
-        _ => in_dimension::<3>(case, numbers),
+        2 => in_dimension::<2>(case),
+        _ => in_dimension::<3>(case),
     }
 }
 
-fn in_dimension<const D: usize>(case: &Case, numbers: Numbers) -> Result<Built, CaseError>
+fn in_dimension<const D: usize>(case: &Case) -> Result<Built, CaseError>
 where
     Point<D>: InSpace,
 {
     let mut groups = bodies::groups::<D>(case)?;
     let driven = drives::prescribe(case, &mut groups)?;
-    let solvers =
-        groups.iter().map(|group| solvers::solver(case, group, numbers)).collect::<Result<Vec<_>, _>>()?;
+    let solvers = groups.iter().map(|group| solvers::solver(case, group)).collect::<Result<Vec<_>, _>>()?;
     let drives = driven.drives(&solvers);
     let probes = observe::probes(case, &groups, &solvers)?;
     let (watch, body) = observe::disorder(case, &groups)?;

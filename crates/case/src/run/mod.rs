@@ -17,7 +17,7 @@ use output::{Frame, ResultDir, Summary};
 use record::Recorder;
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::simulation::{Numbers, Simulation};
+use taut::simulation::Simulation;
 
 /// How to run a case.
 #[derive(Clone, Debug)]
@@ -26,8 +26,6 @@ pub struct Settings {
     pub out: PathBuf,
     /// Threads; `None` for as many as the particles can use.
     pub threads: Option<usize>,
-    /// In what numbers.
-    pub numbers: Numbers,
 }
 
 /// Where a run stands.
@@ -68,26 +66,26 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// A case that cannot be built, a result directory that is taken, a write that fails, a run that diverges; the last leaves its
 /// frames, probes and summary.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
-    let built = build(case, settings.numbers)?;
+    let built = build(case)?;
     let available = std::thread::available_parallelism().map_or(1, usize::from);
     let useful = (built.particles() / PARTICLES_PER_THREAD).max(1);
     let threads = settings.threads.unwrap_or_else(|| available.min(useful)).max(1);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RunError::threads)?;
     let results = ResultDir::create(&settings.out)?;
     observer.started(case, built.particles(), threads);
-    pool.install(|| in_pool(case, built, (settings, &results), observer))
+    pool.install(|| in_pool(case, built, &results, observer))
 }
 
 fn in_pool(
     case: &Case,
     built: Built,
-    (settings, results): (&Settings, &ResultDir),
+    results: &ResultDir,
     observer: &mut dyn Observer,
 ) -> Result<Summary, RunError> {
     for warning in &built.warnings {
         observer.warned(warning);
     }
-    let (mut recorder, solvers, drives) = Recorder::create(case, (built, settings.numbers), results)?;
+    let (mut recorder, solvers, drives) = Recorder::create(case, built, results)?;
     let clock = Instant::now();
     let mut simulation = match Simulation::start(solvers, drives) {
         Ok(simulation) => simulation,

@@ -13,7 +13,7 @@ use output::{Manifest, ProbeTable, ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
 use taut::run::InstructionSet;
-use taut::simulation::{Drive, Numbers, Simulation, Snapshot, Solver, Totals};
+use taut::simulation::{Drive, Simulation, Snapshot, Solver, Totals};
 
 /// The books of a run.
 pub struct Recorder<'a> {
@@ -69,14 +69,10 @@ type Parts<'a> = (Recorder<'a>, Vec<Box<dyn Solver>>, Vec<Box<dyn Drive>>);
 
 impl<'a> Recorder<'a> {
     /// Opens the files of a run and takes the built case apart.
-    pub fn create(
-        case: &'a Case,
-        (built, numbers): (Built, Numbers),
-        results: &'a ResultDir,
-    ) -> Result<Parts<'a>, RunError> {
+    pub fn create(case: &'a Case, built: Built, results: &'a ResultDir) -> Result<Parts<'a>, RunError> {
         let threads = rayon::current_num_threads();
         let machine = Machine::here(InstructionSet::best().name());
-        Manifest::new(case.case_text_as_run(), machine, threads, precision(numbers)).write(results)?;
+        Manifest::new(case.case_text_as_run(), machine, threads, "double").write(results)?;
         let mut tables = Vec::new();
         for probe in &case.probes {
             let unit = if probe.quantity == crate::Quantity::Velocity { "m/s" } else { "m" };
@@ -270,14 +266,6 @@ impl<'a> Recorder<'a> {
             warnings: self.warnings.clone(),
             ..Summary::default()
         }
-    }
-}
-
-/// The precision as the manifest names it.
-fn precision(numbers: Numbers) -> &'static str {
-    match numbers {
-        Numbers::Double => "double",
-        Numbers::Single => "single",
     }
 }
 

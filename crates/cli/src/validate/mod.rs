@@ -18,7 +18,6 @@ use output::{OutputError, Summary};
 use row::Row;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use taut::simulation::Numbers;
 
 /// Name of every benchmark and the text of its `accept.toml`.
 const BENCHMARKS: &[(&str, &str)] = &[
@@ -88,8 +87,7 @@ fn perform(case: &str, run: &Run, out: &Path, threads: Option<u16>) -> Result<Ev
     let options =
         CaseOptions { case: case.to_string(), set: run.set.clone(), formulation: run.formulation.clone() };
     let case = builtin::read(&options)?;
-    let settings =
-        Settings { out: out.to_path_buf(), threads: threads.map(usize::from), numbers: Numbers::Double };
+    let settings = Settings { out: out.to_path_buf(), threads: threads.map(usize::from) };
     let unreadable = |error: OutputError| Failure::Run(format!("{error}\nhint: {}", error.hint()));
     let summary = match run_case(&case, &settings, &mut Silent) {
         Ok(summary) => summary,

@@ -102,6 +102,18 @@ fn nothing_names_a_place_of_one_machine_or_a_thing_to_be_done() {
     }
 }
 
+/// Pages are filled in: no mark of a template, such as a name in capitals between two at signs, is left.
+#[test]
+fn no_page_has_an_unfilled_place() {
+    for path in everything().into_iter().filter(|path| path.extension().is_some_and(|e| e == "md")) {
+        let page = read(&path);
+        for piece in page.split('@').skip(1) {
+            let name = !piece.is_empty() && piece.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+            assert!(!name, "{}: @{piece}@", from_root(&path));
+        }
+    }
+}
+
 /// A library must not panic on what a user gave it: outside tests there is no unwrap, expect or panic in the crates
 /// that read input and write results.
 #[test]

@@ -1,4 +1,4 @@
-//! Bodies by name: the match over formulations, materials, dimensions and precisions. Compiled here, once.
+//! Bodies by name: the match over formulations, materials and dimensions. Compiled here, once.
 
 use super::Solver;
 use super::particles::{Point, total, updated};
@@ -7,7 +7,7 @@ use crate::formulation::total::{HourglassFree, Nested};
 use crate::formulation::updated::{self as updated_forms, Hypoelastic, NonHourglass};
 use crate::integrator::{TotalOptions, UpdatedOptions};
 use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
-use crate::run::{Cpu, Double, InstructionSet, Single};
+use crate::run::Cpu;
 
 /// Points of two or three dimensions.
 #[derive(Clone, Copy, Debug)]
@@ -34,16 +34,6 @@ impl InSpace for Point<3> {
     fn points(points: &[Self]) -> Points<'_> {
         Points::Three(points)
     }
-}
-
-/// In what numbers a body is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Numbers {
-    /// Double precision.
-    #[default]
-    Double,
-    /// Pair sums in single precision; what is integrated in time, and all updates, in double.
-    Single,
 }
 
 /// A hyperelastic material.
@@ -91,10 +81,9 @@ pub fn total_body(
     points: Points<'_>,
     (form, law): (TotalForm, Law),
     options: TotalOptions,
-    numbers: Numbers,
 ) -> Option<Box<dyn Solver>> {
     let h = options.kernel.h();
-    let body = TotalBody { points, moduli: law.moduli(), options, numbers };
+    let body = TotalBody { points, moduli: law.moduli(), options };
     Some(match (form, law) {
         (TotalForm::HourglassFree, Law::NeoHookean(m)) => body.with(HourglassFree::new(m, h)),
         (TotalForm::HourglassFree, Law::NeoHookeanLog(m)) => body.with(HourglassFree::new(m, h)),
@@ -109,7 +98,6 @@ struct TotalBody<'a> {
     points: Points<'a>,
     moduli: Moduli,
     options: TotalOptions,
-    numbers: Numbers,
 }
 
 impl TotalBody<'_> {
@@ -125,12 +113,7 @@ impl TotalBody<'_> {
         points: &[Point<D>],
         formulation: F,
     ) -> Box<dyn Solver> {
-        let (options, set) = (self.options, InstructionSet::best());
-        let form = (formulation, self.moduli);
-        match self.numbers {
-            Numbers::Double => Box::new(total(points, form, options, |p| Cpu::<D, Double>::with(p, set))),
-            Numbers::Single => Box::new(total(points, form, options, |p| Cpu::<D, Single>::with(p, set))),
-        }
+        Box::new(total(points, (formulation, self.moduli), self.options, Cpu::new))
     }
 }
 
@@ -139,11 +122,10 @@ pub fn updated_bodies(
     points: Points<'_>,
     (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
     options: UpdatedOptions,
-    numbers: Numbers,
 ) -> Box<dyn Solver> {
     match points {
-        Points::Two(points) => updated_of::<2>(points, (form, stress, moduli), options, numbers),
-        Points::Three(points) => updated_of::<3>(points, (form, stress, moduli), options, numbers),
+        Points::Two(points) => updated_of::<2>(points, (form, stress, moduli), options),
+        Points::Three(points) => updated_of::<3>(points, (form, stress, moduli), options),
     }
 }
 
@@ -151,9 +133,8 @@ fn updated_of<const D: usize>(
     points: &[Point<D>],
     (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
     options: UpdatedOptions,
-    numbers: Numbers,
 ) -> Box<dyn Solver> {
-    let body = UpdatedBodies { points, moduli, options, numbers };
+    let body = UpdatedBodies { points, moduli, options };
     match form {
         UpdatedForm::NonHourglass => {
             let form = NonHourglass::new(stress, D);
@@ -169,20 +150,10 @@ struct UpdatedBodies<'a, const D: usize> {
     points: &'a [Point<D>],
     moduli: &'a dyn Fn(u32) -> Moduli,
     options: UpdatedOptions,
-    numbers: Numbers,
 }
 
 impl<const D: usize> UpdatedBodies<'_, D> {
     fn with<F: Formulation<D> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
-        let (options, set) = (self.options, InstructionSet::best());
-        let form = (formulation, self.moduli);
-        match self.numbers {
-            Numbers::Double => {
-                Box::new(updated(self.points, form, options, |p| Cpu::<D, Double>::with(p, set)))
-            }
-            Numbers::Single => {
-                Box::new(updated(self.points, form, options, |p| Cpu::<D, Single>::with(p, set)))
-            }
-        }
+        Box::new(updated(self.points, (formulation, self.moduli), self.options, Cpu::new))
     }
 }
