@@ -70,7 +70,7 @@ pub struct ValidateOptions {
     /// Benchmarks [default: all]
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
-    /// Also the long runs: about an hour
+    /// Also the long runs: about half an hour
     #[arg(long)]
     pub full: bool,
     /// One JSON array of rows instead of tables

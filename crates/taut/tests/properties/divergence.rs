@@ -61,6 +61,7 @@ fn an_absurd_step_is_caught() {
             Cause::NotFinite => !diverged.value.is_finite(),
             Cause::Density => !(100.0..1e4).contains(&diverged.value),
             Cause::Speed => diverged.value.abs() > setup.moduli.sound_speed(),
+            Cause::Unlisted => false,
         };
         assert!(wrong, "{form:?}: {diverged}");
     }
