@@ -143,7 +143,9 @@ mod tests {
     #[test]
     fn gradient_of_a_linear_field_is_exact_in_the_continuum() {
         for k in all() {
-            let tail = if k.shape == Shape::Gaussian { 5e-3 } else { 1e-7 };
+            // Partial integration over the cut-off Gaussian leaves 4 pi R^3 W(R) = 7.5e-3 at R = 3h in 3D and d times its
+            // missing tail.
+            let tail = if k.shape == Shape::Gaussian { 9e-3 } else { 1e-7 };
             assert!((integral(&k, |r| r * k.dw(r)) + k.dimension as f64).abs() < tail, "{k:?}");
         }
     }
