@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::arguments::CaseOptions;
 use crate::builtin::{colour, read};
+use crate::say;
 use case::run::{Estimate, RunError, estimate};
 
 /// Prints what a run would be.
@@ -12,29 +13,29 @@ pub fn check(options: &CaseOptions) -> Result<(), Failure> {
         RunError::Case(error) => Failure::Input(error.render(colour())),
         other => Failure::Run(other.to_string()),
     })?;
-    eprint!("{}", case.render_warnings(colour()));
-    println!("{}: {}", case.name, case.title);
+    say::warnings(&case);
+    say!("{}: {}", case.name, case.title);
     for body in &case.bodies {
         if let Some(material) = case.material_of(body) {
             let elastic = &material.elastic;
             let speed =
                 ((elastic.bulk_modulus + elastic.shear_modulus * 4.0 / 3.0) / material.density).sqrt();
             let formulation = body.scheme.formulation.name();
-            println!("  body {}: {}, {formulation}, wave speed {speed:.4} m/s", body.name, material.name);
+            say!("  body {}: {}, {formulation}, wave speed {speed:.4} m/s", body.name, material.name);
         }
     }
     print(&e, case.time.end);
     for warning in &e.warnings {
-        println!("  warning: {warning}");
+        say!("  warning: {warning}");
     }
     Ok(())
 }
 
 fn print(e: &Estimate, end: f64) {
-    println!("  particles   {} with {:.1} neighbours", e.particles, e.neighbours);
-    println!("  memory      about {:.0} MB", (e.memory / 1e6).max(1.0));
-    println!("  time step   {:.4e} s, about {:.0} steps to {end} s", e.dt, e.steps);
-    println!("  run time    about {} on one thread", duration(e.seconds));
+    say!("  particles   {} with {:.1} neighbours", e.particles, e.neighbours);
+    say!("  memory      about {:.0} MB", (e.memory / 1e6).max(1.0));
+    say!("  time step   {:.4e} s, about {:.0} steps to {end} s", e.dt, e.steps);
+    say!("  run time    about {} on one thread", duration(e.seconds));
 }
 
 /// A duration as people say it.

@@ -2,6 +2,9 @@
 //!
 //! Exit status: 0 done, 1 the run failed, 2 the input is wrong.
 
+#[macro_use]
+mod say;
+
 mod arguments;
 mod builtin;
 mod check;
@@ -58,9 +61,9 @@ where
 fn stop(message: &str, status: u8) -> ExitCode {
     // Diagnostics of the case file bring their own heading.
     if message.starts_with("error") {
-        eprintln!("{message}");
+        complain!("{message}");
     } else {
-        eprintln!("error: {message}");
+        complain!("error: {message}");
     }
     ExitCode::from(status)
 }

@@ -9,7 +9,7 @@ pub fn list() -> Result<(), Failure> {
     for (name, text) in CASES {
         let case = Case::parse(name, text, &Overrides::default())
             .map_err(|error| Failure::Input(error.render(false)))?;
-        println!("{name:<20} {}", case.title);
+        say!("{name:<20} {}", case.title);
     }
     Ok(())
 }

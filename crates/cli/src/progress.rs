@@ -37,8 +37,8 @@ impl Watcher {
     fn line(&self, text: &str) {
         match &self.shown {
             Shown::Nothing => {}
-            Shown::Lines(_) => eprintln!("{text}"),
-            Shown::Bar(bar) => bar.suspend(|| eprintln!("{text}")),
+            Shown::Lines(_) => complain!("{text}"),
+            Shown::Bar(bar) => bar.suspend(|| complain!("{text}")),
         }
     }
 
@@ -78,7 +78,7 @@ impl Observer for Watcher {
             Shown::Lines(next) if share * 10.0 >= f64::from(*next) => {
                 *next = (share * 10.0) as u32 + 1;
                 let left = p.wall * (1.0 - share) / share;
-                eprintln!(
+                complain!(
                     "{:>3.0} %  t = {:.4e} s  step {}  {} left",
                     share * 100.0,
                     p.time,

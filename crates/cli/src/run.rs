@@ -5,6 +5,7 @@ use crate::arguments::RunOptions;
 use crate::builtin::{colour, read};
 use crate::pictures;
 use crate::progress::Watcher;
+use crate::say;
 use case::Case;
 use case::run::{RunError, Settings, run as run_case};
 use output::Summary;
@@ -18,7 +19,7 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
     let settings = Settings { out: out.clone(), threads: options.threads.map(usize::from) };
     let mut watcher = Watcher::new(options.quiet);
     if !options.quiet {
-        eprint!("{}", case.render_warnings(colour()));
+        say::warnings(&case);
     }
     let ended = run_case(&case, &settings, &mut watcher);
     watcher.finish();
@@ -55,7 +56,7 @@ fn refuse_later(options: &RunOptions) -> Result<(), Failure> {
 }
 
 fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {
-    println!(
+    say!(
         "{}: {} particles, {} steps to t = {:.6} s in {:.1} s ({:.2} million particle-steps/s)",
         case.name,
         summary.particles,
@@ -66,11 +67,12 @@ fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {
     );
     for (name, measured) in &summary.measured {
         match (measured.value, &measured.reason) {
-            (Some(value), _) => println!("  {name} = {value:.6} {}", measured.unit),
-            (None, reason) => println!("  {name}: {}", reason.as_deref().unwrap_or("not known")),
+            (Some(value), _) if measured.unit == "1" => say!("  {name} = {value:.6}"),
+            (Some(value), _) => say!("  {name} = {value:.6} {}", measured.unit),
+            (None, reason) => say!("  {name}: {}", reason.as_deref().unwrap_or("not known")),
         }
     }
     let d = &summary.disorder;
-    println!("  zigzag_rms {:.5} at worst, broken bonds {:.4}", d.zigzag_rms.worst, d.broken.worst);
-    println!("results in {}", out.display());
+    say!("  zigzag_rms {:.5} at worst, broken bonds {:.4}", d.zigzag_rms.worst, d.broken.worst);
+    say!("results in {}: end.png, summary.json, particles/particles.pvd for ParaView", out.display());
 }

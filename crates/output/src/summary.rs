@@ -116,11 +116,11 @@ pub struct Disorder {
     pub zigzag_99: Worst,
     /// Zigzag of the worst particle.
     pub zigzag_max: Worst,
-    /// Shortest bond over its first length.
+    /// Shortest bond over the spacing.
     pub bond_min: Worst,
     /// Smallest distance of two particles over the spacing.
     pub spacing_min: Worst,
-    /// Number of broken bonds.
+    /// Share of the bonds that are broken.
     pub broken: Worst,
     /// Number of pieces the bodies are in.
     pub pieces: Worst,

@@ -57,7 +57,7 @@ fn hold<const D: usize>(
         }
     }
     if members.is_empty() {
-        let help = "move or enlarge its region; `taut check` shows where the particles are".to_string();
+        let help = "move or enlarge its region: particles stand in the middle of their cells, half a spacing inside of the faces of a body".to_string();
         return Err(case.error_at(boundary.place, "this boundary holds no particle", Some(help)));
     }
     Ok(members)

@@ -38,7 +38,7 @@ pub(crate) fn stepping(formulation: Formulation) -> Stepping {
     }
 }
 
-/// Safe at any stretch, and equal to the paper's rule at rest.
+/// Safe at any stretch. At rest it looks at the longitudinal wave, where the paper's rule looks at sqrt(K/rho0).
 pub(crate) const STEP: StepRule = StepRule::Stretch;
 
 /// No floor, in m/s: right for impacts, which never come to rest.

@@ -20,7 +20,7 @@ pub enum RunError {
         cause: OutputError,
     },
     /// The run diverged; what it had is in `results`.
-    #[error("{diverged}\nthe frames up to then are in {}", results.display())]
+    #[error("{diverged}\nwhat was written up to then is in {}", results.display())]
     Diverged {
         /// What happened.
         diverged: Box<Diverged>,

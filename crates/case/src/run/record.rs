@@ -29,6 +29,7 @@ pub struct Recorder<'a> {
     snapshot: Snapshot,
     deformation: Vec<[f64; 9]>,
     mass: Vec<f64>,
+    particles: u64,
     start: Totals,
     contact: Contact,
     warnings: Vec<String>,
@@ -94,6 +95,7 @@ impl<'a> Recorder<'a> {
             snapshot: Snapshot::default(),
             deformation: Vec::new(),
             mass: Vec::new(),
+            particles: built.body.len() as u64,
             start: Totals::default(),
             contact: Contact { support, ..Contact::default() },
             warnings: built.warnings,
@@ -220,14 +222,28 @@ impl<'a> Recorder<'a> {
 
     /// Closes the books of a run whose initial state is not admissible.
     pub fn never_started(self, diverged: Diverged) -> Result<RunError, RunError> {
-        Summary { case: self.case.name.clone(), ..Summary::default() }
-            .failed(&diverged)
-            .write(self.results)?;
+        let nothing = Summary {
+            case: self.case.name.clone(),
+            formulation: self.formulations(),
+            dimension: self.case.dimension as u32,
+            particles: self.particles,
+            threads: rayon::current_num_threads() as u32,
+            warnings: self.warnings.clone(),
+            ..Summary::default()
+        };
+        nothing.failed(&diverged).write(self.results)?;
         Ok(self.stopped(diverged))
     }
 
     fn stopped(&self, diverged: Diverged) -> RunError {
         RunError::Diverged { diverged: Box::new(diverged), results: self.results.path().to_path_buf() }
+    }
+
+    /// Names of the formulations, in the order of the bodies.
+    fn formulations(&self) -> String {
+        let mut names: Vec<&str> = self.case.bodies.iter().map(|b| b.scheme.formulation.name()).collect();
+        names.dedup();
+        names.join("+")
     }
 
     fn summary(&mut self, simulation: &Simulation, wall: f64) -> Summary {
@@ -242,12 +258,9 @@ impl<'a> Recorder<'a> {
         };
         let (n, steps) = (simulation.len() as f64, simulation.steps());
         let neighbours: f64 = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum();
-        let mut formulations: Vec<&str> =
-            self.case.bodies.iter().map(|b| b.scheme.formulation.name()).collect();
-        formulations.dedup();
         Summary {
             case: self.case.name.clone(),
-            formulation: formulations.join("+"),
+            formulation: self.formulations(),
             dimension: self.case.dimension as u32,
             particles: simulation.len() as u64,
             neighbours_mean: neighbours / n,

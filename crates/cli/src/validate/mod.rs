@@ -36,13 +36,13 @@ pub fn validate(options: &ValidateOptions) -> Result<(), Failure> {
             .map_err(|what| Failure::Run(format!("validation/{name}/accept.toml is wrong: {what}")))?;
         let judged = benchmark(name, &accept, options)?;
         if !options.json {
-            table::lines(&judged).iter().for_each(|line| println!("{line}"));
+            table::lines(&judged).iter().for_each(|line| say!("{line}"));
         }
         rows.extend(judged);
     }
     if options.json {
         let text = serde_json::to_string_pretty(&rows).map_err(|error| Failure::Run(error.to_string()))?;
-        println!("{text}");
+        say!("{text}");
     }
     match rows.iter().filter(|row| !row.holds).count() {
         0 => Ok(()),
@@ -120,9 +120,9 @@ fn told(run: &Run, evidence: &Evidence) -> String {
 /// Says a line, but not into the JSON.
 fn say(options: &ValidateOptions, line: &str) {
     if options.json {
-        eprintln!("{line}");
+        complain!("{line}");
     } else {
-        println!("{line}");
+        say!("{line}");
     }
 }
 

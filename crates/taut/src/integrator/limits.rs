@@ -116,7 +116,8 @@ impl Cause {
                  particles or a smaller `smoothing`"
             }
             Self::Speed => {
-                "energy appeared from nowhere: the time step is too long; try a smaller [time] cfl"
+                "a speed above ten wave speeds: the initial or prescribed velocity is far beyond what the material can follow, or the \
+                 time step is too long (try a smaller [time] cfl)"
             }
         }
     }
