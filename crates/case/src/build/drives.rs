@@ -56,11 +56,23 @@ fn hold<const D: usize>(
             }
         }
     }
+    if let Some((field, x)) = nonsense(&boundary.constraint, &members) {
+        let message = format!("`{}` is not a number at {x:?} m when the run starts", field.text());
+        return Err(case.error_at(boundary.place, message, None));
+    }
     if members.is_empty() {
         let help = "move or enlarge its region: particles stand in the middle of their cells, half a spacing inside of the faces of a body".to_string();
         return Err(case.error_at(boundary.place, "this boundary holds no particle", Some(help)));
     }
     Ok(members)
+}
+
+/// A prescribed value that is no number at the start, and where.
+fn nonsense<'a>(constraint: &'a Constraint, members: &[Member]) -> Option<(&'a FieldExpression, [f64; 3])> {
+    let (Constraint::Velocity(fields) | Constraint::Displacement(fields)) = constraint else { return None };
+    fields.iter().flatten().find_map(|field| {
+        members.iter().find(|(_, _, x)| !field.eval(*x, 0.0).is_finite()).map(|(_, _, x)| (field, *x))
+    })
 }
 
 /// Constant body forces go into the points; the particles of those that change with time are handed back with

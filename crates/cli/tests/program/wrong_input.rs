@@ -58,6 +58,7 @@ const HEADS: &[(&str, &str, &str, &str)] = &[
     ("model = \"neo-hookean\"\n", "", "missing key `model`", "[material.rubber]"),
     ("dimension = 2\n", "", "missing key `dimension`", "name = \"block\""),
     ("spacing = \"dp\"", "spacing = 1", "no particle fits inside", "[[body]]"),
+    ("fixed = true", "velocity = [\"sqrt(-1 - t)\", 0]", "is not a number", "[[boundary]]"),
     ("spacing = \"dp\"", "spacing = 1e-12", "choose a larger spacing", "[[body]]"),
     ("v0*sin(80*x)", "1/(x-x)", "the velocity of body `block` is inf", "[[body]]"),
     ("[-1, -1], max = [\"dp\", 1]", "[-2, -2], max = [-1, -1]", "holds no particle", "[[boundary]]"),
