@@ -24,8 +24,6 @@ pub struct Estimate {
     pub steps: f64,
     /// Wall time at the speed of a few trial steps on one thread, s.
     pub seconds: f64,
-    /// Time of the first step to the last of the trial, per particle, s.
-    pub per_particle_step: f64,
     /// What is doubtful.
     pub warnings: Vec<String>,
 }
@@ -59,7 +57,6 @@ pub fn estimate(case: &Case) -> Result<Estimate, RunError> {
         dt,
         steps,
         seconds: per_step * steps,
-        per_particle_step: per_step / particles.max(1) as f64,
         warnings,
     })
 }

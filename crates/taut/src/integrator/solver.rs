@@ -10,7 +10,9 @@ pub trait Solver: Send {
     /// 2 or 3.
     fn dimension(&self) -> usize;
     /// How many particles.
-    fn len(&self) -> usize;
+    fn len(&self) -> usize {
+        self.ids().len()
+    }
     /// Whether there is none.
     fn is_empty(&self) -> bool {
         self.len() == 0
@@ -42,10 +44,20 @@ pub trait Solver: Send {
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];
+    /// One stored number of the particle stored at `place`.
+    fn word(&self, field: Quantity, word: usize, place: usize) -> f64;
+    /// Sets one stored number of the particle stored at `place`.
+    fn set_word(&mut self, field: Quantity, word: usize, at: (usize, f64));
     /// Sets a vector field of the particle stored at `place`.
-    fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]);
+    fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]) {
+        for (i, &x) in value.iter().enumerate().take(self.dimension()) {
+            self.set_word(field, i, (place, x));
+        }
+    }
     /// A scalar field of the particle stored at `place`.
-    fn scalar(&self, field: Quantity, place: usize) -> f64;
+    fn scalar(&self, field: Quantity, place: usize) -> f64 {
+        self.word(field, 0, place)
+    }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;
 }

@@ -105,10 +105,6 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         D
     }
 
-    fn len(&self) -> usize {
-        self.run.particles().len()
-    }
-
     fn ids(&self) -> &[u32] {
         self.run.particles().ids()
     }
@@ -173,14 +169,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         out
     }
 
-    fn write(&mut self, field: Quantity, place: usize, value: [f64; 3]) {
-        for i in 0..D {
-            self.run.set_word(field, i, (place, value[i]));
-        }
+    fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
+        self.run.word(field, word, place)
     }
 
-    fn scalar(&self, field: Quantity, place: usize) -> f64 {
-        self.run.word(field, 0, place)
+    fn set_word(&mut self, field: Quantity, word: usize, at: (usize, f64)) {
+        self.run.set_word(field, word, at);
     }
 
     fn state(&self, place: usize) -> State {

@@ -1,8 +1,9 @@
 //! The hourglass-free formulation, `tl-hourglass-free` (TL section 3.3).
 
 use super::motion::{Force, Kick, Rate, Stress, Stretch};
-use super::reference::{Invert, MomentSum};
+use super::reference::MomentSum;
 use super::{FIELDS, Solid};
+use crate::correction::Invert;
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::material::PairShear;

@@ -1,8 +1,9 @@
 //! The nested formulation, `tl-nested` (TL section 3.2): stress from a gradient, force from the gradient of stress.
 
 use super::motion::{Force, Kick, Rate, Stress, Stretch};
-use super::reference::{Invert, MomentSum};
+use super::reference::MomentSum;
 use super::{FIELDS, Solid};
+use crate::correction::Invert;
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::material::Hyperelastic;

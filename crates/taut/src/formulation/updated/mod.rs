@@ -13,7 +13,7 @@ pub use non_hourglass::NonHourglass;
 use super::State;
 use crate::field::Quantity;
 use crate::material::Plane;
-use crate::math::{Real, Tensor, Vector};
+use crate::math::{Real, Tensor};
 use crate::pass::Now;
 use crate::run::Run;
 
@@ -107,11 +107,4 @@ pub(crate) fn state<const D: usize>(run: &impl Run<D>, place: usize, shear_energ
 /// V = m / rho of every particle, for the next list.
 pub(crate) fn refresh_volumes<const D: usize>(run: &mut impl Run<D>) {
     run.each(&motion::Refresh, Now { t: 0.0, dt: 0.0 });
-}
-
-/// Current positions less reference positions.
-#[must_use]
-pub fn displacement<const D: usize>(run: &impl Run<D>, place: usize) -> Vector<f64, D> {
-    let p = run.particles();
-    p.vector_at(Quantity::Position, place) - p.vector_at(Quantity::ReferencePosition, place)
 }

@@ -1,9 +1,9 @@
 //! Passes shared by the updated Lagrangian formulations: drift and correction matrix.
 
 use super::same_body;
-use crate::correction::inverse_or_unit;
+use crate::correction::Moment;
 use crate::field::Of;
-use crate::math::{Real, Tensor};
+use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
 
 record! {
@@ -15,10 +15,6 @@ record! {
     Drifted { x: Position, density: Density, p: Pressure }
     /// A point and its body.
     Place { x: Position, body: Body }
-    /// The matrix to invert.
-    Moment { m: MomentMatrix }
-    /// The inverse.
-    Corrected { b: Correction }
     /// What a new configuration needs.
     Heavy { m: Mass, density: Density }
     /// The volume of a new configuration.
@@ -72,20 +68,5 @@ impl<const D: usize> PairSum<D> for MomentSum {
         _: &Now<S>,
     ) {
         ab.outer(&mut sum.m, (b.x - a.x).times(same_body(a.body, b.body)));
-    }
-}
-
-/// B = M^-1, or the unit tensor where M is singular.
-pub struct Invert;
-
-impl<const D: usize> Update<D> for Invert {
-    type Sum = Moment<f64, D>;
-    type Reads = ();
-    type Writes = Corrected<f64, D>;
-
-    #[inline(always)]
-    fn at<S: Real>(&self, sum: &Moment<S, D>, (): &(), _: &Now<S>) -> Of<Self::Writes, S, D> {
-        let b: Tensor<S, D> = inverse_or_unit(sum.m);
-        Corrected { b }
     }
 }

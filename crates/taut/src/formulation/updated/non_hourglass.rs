@@ -1,9 +1,10 @@
 //! The essentially non-hourglass formulation, `ul-non-hourglass` (UL section 4).
 
 use super::kick::{Kick, Push};
-use super::motion::{Drift, Invert, MomentSum};
+use super::motion::{Drift, MomentSum};
 use super::pressure::{Pushing, push};
 use super::{FIELDS, Hypoelastic, same_body};
+use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
 use crate::material::Moduli;

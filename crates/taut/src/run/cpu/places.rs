@@ -96,13 +96,13 @@ impl<E: Element> PairPlaces<E> {
 }
 
 /// Consecutive particles from this one on, in the lanes of a pair sum.
-pub struct Row<'a, E>(pub &'a PairPlaces<E>, pub usize);
+pub struct Row<'a, E>(pub &'a PairPlaces<E>, pub isize);
 
 impl<V: Lanes> Source<V> for Row<'_, V::E> {
     #[inline(always)]
     fn get(&self, k: usize) -> V {
         // SAFETY: particles and guard are readable around every particle, and `k` is below the width of the record.
-        unsafe { V::load(self.0.columns.get_unchecked(k).0.add(self.1)) }
+        unsafe { V::load(self.0.columns.get_unchecked(k).0.offset(self.1)) }
     }
 }
 

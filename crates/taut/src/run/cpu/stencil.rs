@@ -37,10 +37,11 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The first of the neighbours of a block.
+    /// The first of the neighbours of a block. Where the first lanes do not count it may lie before the first particle, in the
+    /// guard of the columns.
     #[inline(always)]
-    pub fn of(&self, block: &Block) -> usize {
-        (block.first as i32 + self.delta) as usize
+    pub fn of(&self, block: &Block) -> isize {
+        block.first as isize + self.delta as isize
     }
 }
 

@@ -37,7 +37,7 @@ impl<E, R: Reduce<D, N>, const D: usize, const N: usize> Walk<E> for Fold<'_, R,
         let mut lanes = R::FOLDS.map(|f| K::Point::of(f.start()));
         let mut first = chunk.first;
         while first < chunk.end {
-            // Lanes beyond the last particle repeat the first of the group in extremes, and are left out of sums.
+            // Lanes beyond the last particle repeat the first of the group; they are left out.
             let count = (chunk.end - first).min(K::Point::N);
             let values = if K::MIXED {
                 self.reduce.at(&R::Reads::read::<K::Point>(&Some::<true> {

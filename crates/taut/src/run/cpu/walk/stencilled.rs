@@ -51,7 +51,7 @@ impl<P: PairSum<D>, E: Element, const D: usize> Stencilled<'_, P, E, D> {
 
     #[inline(always)]
     fn gather<V: Lanes<E = E>>(&self, block: &Block, now: &Now<V>) -> Of<P::Adds, V, D> {
-        let a = P::Reads::read::<V>(&Row(&self.own, block.first as usize));
+        let a = P::Reads::read::<V>(&Row(&self.own, block.first as isize));
         let mut run = Running { a, sum: P::Adds::nought::<V>() };
         if Self::WEIGHT_BY_WEIGHT {
             self.part::<V, 1>(block, &mut run, now);
