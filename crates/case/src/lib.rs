@@ -42,8 +42,8 @@ mod written;
 
 pub use checked::{
     Axis, Body, Boundary, Case, Constraint, Elastic, Extremum, Family, Feature, FieldExpression, Fill,
-    Formulation, Gravity, Kernel, March, Material, Measure, MeasureKind, Model, Monitor, Plane, Probe,
-    Quantity, Scheme, ShapeSpec, StepRule, Stepping, Time, VectorField,
+    Formulation, Gravity, Initial, Kernel, March, Material, Measure, MeasureKind, Model, Monitor, Plane,
+    Probe, Quantity, Scheme, ShapeSpec, Spot, StepRule, Stepping, Time, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use expression::{Expression, ExpressionError, Names};

@@ -85,6 +85,29 @@ fn fill<const D: usize>(case: &Case, index: usize, body: &Body) -> Result<Vec<Po
     Ok(out)
 }
 
+/// Gives the particles of regions their own velocity at the start.
+pub fn initial<const D: usize>(case: &Case, groups: &mut [Group<'_, D>]) -> Result<(), CaseError> {
+    for initial in &case.initial {
+        let region = checked::<D>(case, &initial.region, initial.place)?;
+        let mut count = 0;
+        for point in groups.iter_mut().flat_map(|g| &mut g.points) {
+            let x = padded(point.x);
+            if initial.body.is_none_or(|b| b as u32 == point.body) && region.contains(x) {
+                point.v = vector(initial.velocity.eval(x, 0.0));
+                if !point.v.norm_squared().is_finite() {
+                    let message = format!("this velocity is not a number at {x:?} m");
+                    return Err(case.error_at(initial.place, message, None));
+                }
+                count += 1;
+            }
+        }
+        if count == 0 {
+            return Err(case.error_at(initial.place, "no particle is in this region", None));
+        }
+    }
+    Ok(())
+}
+
 /// What is doubtful about the particles: bodies that overlap at the start, bodies that will not see each other.
 pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<String> {
     let mut warnings = Vec::new();

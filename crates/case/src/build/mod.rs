@@ -51,6 +51,7 @@ where
     Point<D>: InSpace,
 {
     let mut groups = bodies::groups::<D>(case)?;
+    bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
     let solvers = groups.iter().map(|group| solvers::solver(case, group)).collect::<Result<Vec<_>, _>>()?;
     let drives = driven.drives(&solvers);

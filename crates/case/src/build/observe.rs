@@ -1,13 +1,14 @@
 //! Probes and disorder.
 
-use super::bodies::{Group, vector};
+use super::bodies::{Group, checked, padded, vector};
 use super::drives::places;
-use crate::{Case, CaseError, Quantity};
+use crate::{Case, CaseError, Quantity, Spot};
+use geometry::Shape;
 use taut::diagnostics::MaterialPoint;
 use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
 use taut::field;
 use taut::neighbours::{Adjacency, Search};
-use taut::simulation::{Snapshot, Solver};
+use taut::simulation::{Point, Snapshot, Solver};
 
 /// Where a probe reads: weights of stored particles of one solver.
 pub struct ProbePoint {
@@ -42,21 +43,48 @@ pub fn probes<const D: usize>(
 ) -> Result<Vec<ProbePoint>, CaseError> {
     let places: Vec<Vec<usize>> = solvers.iter().map(|s| places(s.as_ref())).collect();
     let probe = |probe: &crate::Probe| {
+        let spot = match &probe.spot {
+            Spot::Point(_) => None,
+            Spot::Region(region) => Some(checked::<D>(case, region, probe.place)?),
+        };
         let found = groups.iter().enumerate().find_map(|(g, group)| {
             let mine = group.points.iter().enumerate().filter(|(_, p)| p.body as usize == probe.body);
-            let stored = mine.map(|(i, p)| (places[g][i], p.x));
-            Some((g, MaterialPoint::new(stored, vector(probe.at), case.spacing)?))
+            let mine: Vec<_> = mine.map(|(i, p)| (places[g][i], p)).collect();
+            let (point, at) = match (&probe.spot, &spot) {
+                (Spot::Region(_), Some(region)) => mean(&mine, region)?,
+                (Spot::Region(_), None) => return None,
+                (Spot::Point(at), _) => {
+                    let stored = mine.iter().map(|(place, p)| (*place, p.x));
+                    (MaterialPoint::new(stored, vector(*at), case.spacing)?, *at)
+                }
+            };
+            Some((g, point, at))
         });
-        let (solver, point) = found.ok_or_else(|| {
-            let message =
-                format!("probe `{}` is not in its body: no particle within 2.6 spacings", probe.name);
+        let (solver, point, at) = found.ok_or_else(|| {
+            let what = match probe.spot {
+                Spot::Point(_) => "no particle within 2.6 spacings",
+                Spot::Region(_) => "no particle is in its region",
+            };
+            let message = format!("probe `{}` is not in its body: {what}", probe.name);
             let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
-            let help = format!("`at` is a point of the undeformed body `{name}`");
+            let help = format!("a probe is placed in the undeformed body `{name}`");
             case.error_at(probe.place, message, Some(help))
         })?;
-        Ok(ProbePoint { solver, point, at: probe.at, quantity: probe.quantity })
+        Ok(ProbePoint { solver, point, at, quantity: probe.quantity })
     };
     case.probes.iter().map(probe).collect()
+}
+
+/// The particles of a region as one probe: their weights, and their mean reference position.
+fn mean<const D: usize>(mine: &[(usize, &Point<D>)], region: &Shape) -> Option<(MaterialPoint, [f64; 3])> {
+    let inside = || mine.iter().filter(|(_, p)| region.contains(padded(p.x)));
+    let point = MaterialPoint::mean(inside().map(|(place, p)| (*place, p.volume)))?;
+    let total: f64 = inside().map(|(_, p)| p.volume).sum();
+    let at = inside().fold([0.0; 3], |sum: [f64; 3], (_, p)| {
+        let x = padded(p.x);
+        std::array::from_fn(|k| sum[k] + p.volume / total * x[k])
+    });
+    Some((point, at))
 }
 
 /// What is observed of the arrangement of particles.

@@ -1,6 +1,7 @@
 //! `[[body]]`.
 
 use super::field::VectorField;
+use super::load::start_velocity;
 use super::names::{find, part_name};
 use super::scheme::{Scheme, Schemes, read_formulation};
 use super::scope::Scope;
@@ -96,15 +97,6 @@ impl BodyReader<'_, '_> {
     }
 
     fn velocity(&self, node: Option<&Node>) -> Result<VectorField, Diagnostic> {
-        let Some(node) = node else { return Ok(VectorField::default()) };
-        let velocity = self.scope.vector_field(node, "`velocity`", Dimension::SPEED)?;
-        if velocity.depends_on_time() {
-            return Err(Diagnostic::at(
-                node.place,
-                "the velocity of a body is that of the start, it cannot use `t`",
-            )
-            .help("prescribe a velocity that changes with time in a [[boundary]]"));
-        }
-        Ok(velocity)
+        node.map_or_else(|| Ok(VectorField::default()), |node| start_velocity(self.scope, node))
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
-use super::load::{Boundary, Gravity};
+use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
 use super::measure::Measure;
 use super::probe::Probe;
@@ -42,6 +42,8 @@ pub struct Case {
     pub bodies: Vec<Body>,
     /// Prescribed motion.
     pub boundaries: Vec<Boundary>,
+    /// Velocities at the start, by region.
+    pub initial: Vec<Initial>,
     /// Body forces.
     pub gravity: Vec<Gravity>,
     /// How long the run is.

@@ -39,6 +39,19 @@ pub enum Constraint {
     Displacement([Option<FieldExpression>; 3]),
 }
 
+/// A velocity at the start in a region; it replaces that of the body.
+#[derive(Debug, Clone)]
+pub struct Initial {
+    /// Velocity, m/s, a function of the reference position only.
+    pub velocity: VectorField,
+    /// Number of the body; `None` for all.
+    pub body: Option<usize>,
+    /// Particles whose reference position is in here.
+    pub region: ShapeSpec,
+    /// Its header in the case file.
+    pub place: Place,
+}
+
 /// A body force.
 #[derive(Debug, Clone)]
 pub struct Gravity {
@@ -83,6 +96,16 @@ impl LoadReader<'_, '_> {
                 .and_then(|node| self.scope.vector_field(node, "`acceleration`", Dimension::ACCELERATION)),
         );
         Some(Gravity { acceleration: acceleration?, body: body?, region: region? })
+    }
+
+    /// One velocity at the start.
+    pub(crate) fn initial(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Initial> {
+        section.only(&["region", "body", "velocity"], problems);
+        let body = problems.keep(self.body(section));
+        let region = problems.keep(section.need("region").and_then(|node| self.shapes.shape(node)));
+        let velocity =
+            problems.keep(section.need("velocity").and_then(|node| start_velocity(self.scope, node)));
+        Some(Initial { velocity: velocity?, body: body?, region: region?, place: section.place })
     }
 
     fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
@@ -149,6 +172,16 @@ impl LoadReader<'_, '_> {
         }
         Ok(fields)
     }
+}
+
+/// A velocity that belongs to the start, so that it cannot use `t`.
+pub(crate) fn start_velocity(scope: &Scope, node: &Node) -> Result<VectorField, Diagnostic> {
+    let velocity = scope.vector_field(node, "`velocity`", Dimension::SPEED)?;
+    if velocity.depends_on_time() {
+        return Err(Diagnostic::at(node.place, "this velocity is that of the start, it cannot use `t`")
+            .help("prescribe a velocity that changes with time in a [[boundary]]"));
+    }
+    Ok(velocity)
 }
 
 fn fixed(node: &Node) -> Result<Constraint, Diagnostic> {

@@ -3,7 +3,7 @@
 use super::body::{Body, BodyReader};
 use super::choices::{Formulation, Plane};
 use super::compatible;
-use super::load::{Boundary, Gravity, LoadReader};
+use super::load::{Boundary, Gravity, Initial, LoadReader};
 use super::material::{self, Material};
 use super::measure::{Measure, MeasureReader};
 use super::names::part_names;
@@ -23,6 +23,7 @@ pub(super) struct Parts {
     pub regions: Vec<(String, ShapeSpec)>,
     pub bodies: Vec<Body>,
     pub boundaries: Vec<Boundary>,
+    pub initial: Vec<Initial>,
     pub gravity: Vec<Gravity>,
     pub probes: Vec<Probe>,
     pub measures: Vec<Measure>,
@@ -49,13 +50,16 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let boundaries = boundaries.iter().filter_map(|s| loads.boundary(s, problems)).collect();
     let gravity = list(root, "gravity", problems);
     let gravity = gravity.iter().filter_map(|s| loads.gravity(s, problems)).collect();
-    let (probes, measures) = records(root, scope, &body_names, problems);
+    let initial = list(root, "initial", problems);
+    let initial = initial.iter().filter_map(|s| loads.initial(s, problems)).collect();
+    let (probes, measures) = records(root, &mut shapes, &body_names, problems);
     Parts {
         formulation: schemes.formulation,
         materials,
         regions,
         bodies,
         boundaries,
+        initial,
         gravity,
         probes,
         measures,
@@ -99,13 +103,14 @@ fn bodies<'a>(
 /// Probes, and the measures taken from them.
 fn records(
     root: &Table,
-    scope: &Scope,
+    shapes: &mut ShapeReader<'_>,
     bodies: &[Option<&str>],
     problems: &mut Problems,
 ) -> (Vec<Probe>, Vec<Measure>) {
+    let scope = shapes.scope;
     let (sections, names) = named_list(root, "probe", problems);
     let probes: Vec<Probe> =
-        sections.iter().filter_map(|section| probe::read(section, scope, bodies, problems)).collect();
+        sections.iter().filter_map(|section| probe::read(section, shapes, bodies, problems)).collect();
     let (sections, _) = named_list(root, "measure", problems);
     let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };
     let measures = sections.iter().filter_map(|section| reader.read(section, problems)).collect();

@@ -2,7 +2,8 @@
 
 use super::defaults;
 use super::names::{find, part_name};
-use super::scope::Scope;
+use super::shape::ShapeSpec;
+use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::source::Place;
 use crate::units::Dimension;
@@ -13,16 +14,25 @@ use crate::written::{Section, choice};
 pub struct Probe {
     /// Its name.
     pub name: String,
-    /// The material point, by its reference position, m.
-    pub at: [f64; 3],
+    /// What it follows.
+    pub spot: Spot,
     /// Number of the body that it belongs to.
     pub body: usize,
     /// What is recorded.
     pub quantity: Quantity,
     /// Time between two samples, s; 0 for every step.
     pub interval: f64,
-    /// Where `at` stands in the case file.
+    /// Where `at` or `region` stands in the case file.
     pub place: Place,
+}
+
+/// What a probe follows.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Spot {
+    /// A material point, by its reference position, m.
+    Point([f64; 3]),
+    /// The mean over the particles whose reference position is in here, weighted by volume.
+    Region(ShapeSpec),
 }
 
 /// What a probe records.
@@ -52,30 +62,43 @@ impl Quantity {
 /// One probe; `bodies` are the names of all bodies of the case.
 pub(crate) fn read(
     section: &Section<'_>,
-    scope: &Scope,
+    shapes: &mut ShapeReader<'_>,
     bodies: &[Option<&str>],
     problems: &mut Problems,
 ) -> Option<Probe> {
-    section.only(&["name", "at", "body", "quantity", "interval"], problems);
+    let scope = shapes.scope;
+    section.only(&["name", "at", "region", "body", "quantity", "interval"], problems);
     let name = problems.keep(part_name(section));
-    let at = problems.keep(
-        section.need("at").and_then(|node| Ok((scope.vector(node, "`at`", Dimension::LENGTH)?, node.place))),
-    );
+    let spot = problems.keep(spot(section, shapes));
     let body = problems.keep(body(section, bodies));
     let quantity = section.get("quantity").map(|node| choice(node, "quantity", Quantity::NAMES));
     let quantity = problems.keep(quantity.transpose());
     let interval =
         section.get("interval").map(|node| scope.not_negative(node, "`interval`", Dimension::TIME));
     let interval = problems.keep(interval.transpose());
-    let (at, place) = at?;
+    let (spot, place) = spot?;
     Some(Probe {
         name: name?.to_string(),
-        at,
+        spot,
         body: body?,
         quantity: quantity?.unwrap_or(Quantity::Displacement),
         interval: interval?.unwrap_or(defaults::PROBE_INTERVAL),
         place,
     })
+}
+
+fn spot(section: &Section<'_>, shapes: &mut ShapeReader<'_>) -> Result<(Spot, Place), Diagnostic> {
+    match (section.get("at"), section.get("region")) {
+        (Some(node), None) => {
+            Ok((Spot::Point(shapes.scope.vector(node, "`at`", Dimension::LENGTH)?), node.place))
+        }
+        (None, Some(node)) => Ok((Spot::Region(shapes.shape(node)?), node.place)),
+        (None, None) => Err(Diagnostic::at(section.place, "missing key `at`: the material point to follow")
+            .help("for example at = [0.2, 0]; or region = \"NAME\" for the mean over the particles in it")),
+        (Some(_), Some(node)) => {
+            Err(Diagnostic::at(node.place, "a probe follows one thing, found both `at` and `region`"))
+        }
+    }
 }
 
 fn body(section: &Section<'_>, bodies: &[Option<&str>]) -> Result<usize, Diagnostic> {

@@ -26,6 +26,46 @@ fn a_run_leaves_frames_probes_pictures_summary_and_manifest() {
     assert!(probe.lines().count() > 30, "a sample for every step");
 }
 
+/// Regions name particles: the right half is set in motion, and probes follow the means of both halves.
+#[test]
+fn regions_name_particles_for_probes_and_initial_fields() {
+    let regions = r#"
+[region.right]
+shape = { box = { min = ["1 cm", -1], max = [1, 1] } }
+[[initial]]
+region = "right"
+velocity = ["4 + 0*y", 1]
+[[probe]]
+name = "right"
+region = "right"
+quantity = "velocity"
+[[probe]]
+name = "left"
+region = { box = { min = [-1, -1], max = ["1 cm", 1] } }
+quantity = "velocity"
+[[probe]]
+name = "centre"
+region = "right"
+quantity = "position"
+"#;
+    let still = BLOCK.replace("velocity = [\"v0*sin(80*x)\", 0]\n", "");
+    let folder = with_case(&format!("{still}{regions}"));
+    taut(folder.path(), &["run", "case.toml"]).with(0);
+    let first = |name: &str| {
+        let table = fs::read_to_string(folder.path().join(format!("out/block/probes/{name}.csv")));
+        let table = table.expect("the probe");
+        let numbers = table.lines().nth(1).expect("the first sample").split(',').map(|n| n.parse());
+        numbers.collect::<Result<Vec<f64>, _>>().expect("numbers")
+    };
+    // Means of equal numbers over 100 particles: rounding only.
+    let near = |found: Vec<f64>, expected: [f64; 3]| {
+        assert!(found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-12), "{found:?} {expected:?}");
+    };
+    near(first("right"), [0.0, 4.0, 1.0]);
+    near(first("left"), [0.0, 0.0, 0.0]);
+    near(first("centre"), [0.0, 0.015, 0.005]);
+}
+
 /// A PNG that can be decoded and is not empty.
 fn assert_picture(path: &Path) {
     let file = fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

@@ -48,6 +48,24 @@ const ROWS: &[(&str, &str, &str)] = &[
     ("[0, 0], max", "[0, 0, 0], max", "a list of 2"),
     ("[\"2 cm\", \"1 cm\"]", "[\"-2 cm\", \"1 cm\"]", "empty"),
     ("at = [0.02, 0.005]", "at = [2, 0.005]", "not in its body"),
+    ("at = [0.02, 0.005]", "region = \"feet\"", "unknown region `feet`"),
+    (
+        "at = [0.02, 0.005]",
+        "region = { ball = { center = [9, 9], radius = 1 } }",
+        "no particle is in its region",
+    ),
+    ("at = [0.02, 0.005]", "at = [0.02, 0.005]\n@region = \"foot\"", "found both `at` and `region`"),
+    (
+        "[[probe]]",
+        "@[[initial]]\nregion = { ball = { center = [9, 9], radius = 1 } }\nvelocity = [1, 0]\n[[probe]]",
+        "no particle is in this region",
+    ),
+    ("[[probe]]", "[[initial]]\nregion = \"foot\"\n@velocity = [\"t\", 0]\n[[probe]]", "cannot use `t`"),
+    (
+        "[[probe]]",
+        "@[[initial]]\nregion = \"foot\"\nvelocity = [\"1/(x-x)\", 0]\n[[probe]]",
+        "is not a number",
+    ),
     ("{ box = { min = [0, 0]", "{ cube = { min = [0, 0]", "unknown shape `cube`"),
     ("[[body]]", "@[[body]]\nfill = \"concentric\"", "only a ring or a ball"),
 ];
@@ -59,6 +77,7 @@ const HEADS: &[(&str, &str, &str, &str)] = &[
     ("dimension = 2\n", "", "missing key `dimension`", "name = \"block\""),
     ("spacing = \"dp\"", "spacing = 1", "no particle fits inside", "[[body]]"),
     ("fixed = true", "velocity = [\"sqrt(-1 - t)\", 0]", "is not a number", "[[boundary]]"),
+    ("at = [0.02, 0.005]\n", "", "missing key `at`", "[[probe]]"),
     ("spacing = \"dp\"", "spacing = 1e-12", "choose a larger spacing", "[[body]]"),
     ("v0*sin(80*x)", "1/(x-x)", "the velocity of body `block` is inf", "[[body]]"),
     ("[-1, -1], max = [\"dp\", 1]", "[-2, -2], max = [-1, -1]", "holds no particle", "[[boundary]]"),

@@ -40,6 +40,15 @@ impl MaterialPoint {
         Some(Self { weights })
     }
 
+    /// The mean over particles, each with its weight (any positive numbers). `None` if there is none.
+    #[must_use]
+    pub fn mean(particles: impl Iterator<Item = (usize, f64)>) -> Option<Self> {
+        let mut weights: Vec<(usize, f64)> = particles.collect();
+        let total: f64 = weights.iter().map(|w| w.1).sum();
+        weights.iter_mut().for_each(|w| w.1 /= total);
+        (!weights.is_empty()).then_some(Self { weights })
+    }
+
     /// The value of a vector field given by particle.
     pub fn value(&self, field: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
         self.weights.iter().fold([0.0; 3], |sum, &(i, w)| {
@@ -64,6 +73,13 @@ mod tests {
             assert!((value[0] - (2.0 - 3.0 * at[0] + 0.7 * at[1])).abs() < 1e-12, "rounding only");
             assert!((value[1] - 1.0).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_mean_weighs_by_what_it_is_given() {
+        let mean = MaterialPoint::mean([(0, 1.0), (1, 3.0)].into_iter()).expect("two particles");
+        assert_eq!(mean.value(|i| [i as f64, 2.0, 0.0]), [0.75, 2.0, 0.0]);
+        assert_eq!(MaterialPoint::mean(std::iter::empty()), None);
     }
 
     #[test]
