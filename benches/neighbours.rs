@@ -12,7 +12,7 @@ use common::points::disordered;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
 use taut::field::Quantity;
-use taut::neighbours::{Adjacency, Search, hilbert_order};
+use taut::neighbours::{Adjacency, Search, storage_order};
 use taut::particles::Particles;
 use taut::run::{Among, Cpu, Relist, Run};
 
@@ -28,7 +28,7 @@ fn particles<const D: usize>(n: [usize; D]) -> Particles<D> {
         p.column_mut(Quantity::Volume, 0)[i] = point.volume;
     }
     let mut order = Vec::new();
-    hilbert_order(p.vector(Quantity::Position), &mut order).expect("finite");
+    storage_order(p.vector(Quantity::Position), DP, &mut order).expect("finite");
     p.reorder(&order);
     p
 }

@@ -67,13 +67,13 @@ fn total(form: Form) {
 }
 
 /// Dual stepping over at least eight lists. Steps that keep their list ask for nothing. The lists together ask at most once
-/// for each buffer whose size follows the pairs or cells, because a buffer that grows doubles: neighbours and their
-/// blocks (2 arrays), cells of the grid, and the staged neighbours of every 1024 particles.
+/// for each buffer whose size follows the pairs or cells, because a buffer that grows takes a quarter more than it needs: neighbours,
+/// two kinds of weights and squared distances of every 128 particles, and cells of the grid.
 fn updated<F: Formulation<2>>(form: F) {
     let setup = Setup::new(DP);
     let mut points = block([71, 67], DP);
     stir(&mut points, 0.2 * setup.moduli.sound_speed(), 30.0 * DP);
-    let buffers = 4 + points.len().div_ceil(1024) as u64;
+    let buffers = 1 + 4 * points.len().div_ceil(128) as u64;
     let mut body = setup.updated(form, &points);
     let mut clock = Clock::start(&mut body).expect("finite");
     clock.steps(&mut body, 5);

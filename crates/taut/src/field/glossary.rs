@@ -32,7 +32,9 @@ macro_rules! glossary {
                 match self { $(Self::$name => $unit),+ }
             }
 
-            /// Whether it is integrated in time: such fields stay in double precision when the rest is single.
+            /// Whether it stays in double precision when the rest is single: positions and displacements, whose increments are a
+            /// millionth of them, and what sums up over a run. Velocities and deformation gradients are of the order of what
+            /// is added to them often enough for single precision.
             #[must_use]
             pub const fn is_state(self) -> bool {
                 matches!(
@@ -40,9 +42,7 @@ macro_rules! glossary {
                     Self::ReferencePosition
                         | Self::Displacement
                         | Self::Position
-                        | Self::Velocity
                         | Self::Density
-                        | Self::DeformationGradient
                         | Self::ShearAcceleration
                         | Self::ShearStress
                         | Self::AxialShearStress

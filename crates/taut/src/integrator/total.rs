@@ -110,7 +110,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn neighbours(&self) -> f64 {
-        self.run.adjacency().mean()
+        self.run.neighbours()
     }
 
     fn start(&mut self) -> Result<(), Diverged> {

@@ -1,5 +1,6 @@
 //! Smoothing kernels W(r, h): Wendland C2, cubic spline, Gaussian; normalised in 2 and 3 dimensions.
 
+use crate::math::Real;
 use std::f64::consts::PI;
 
 /// The shape of the kernel.
@@ -71,18 +72,22 @@ impl Kernel {
 
     /// dW/dr at distance `r`, 1/m^(d+1); never positive.
     #[must_use]
-    pub fn dw(&self, r: f64) -> f64 {
-        if r >= self.support() {
-            return 0.0;
-        }
-        let q = r / self.h;
-        self.scale / self.h
-            * match self.shape {
-                Shape::WendlandC2 => -5.0 * q * (1.0 - 0.5 * q).powi(3),
-                Shape::CubicSpline if q < 1.0 => -3.0 * q + 2.25 * q * q,
-                Shape::CubicSpline => -0.75 * (2.0 - q).powi(2),
-                Shape::Gaussian => -2.0 * q * (-q * q).exp(),
+    #[inline(always)]
+    pub fn dw<S: Real>(&self, r: S) -> S {
+        let of = S::of;
+        let q = r * of(1.0 / self.h);
+        let slope = match self.shape {
+            Shape::WendlandC2 => {
+                let rest = q.mul_add(of(-0.5), S::one());
+                of(-5.0) * q * (rest * rest * rest)
             }
+            Shape::CubicSpline => {
+                let rest = of(2.0) - q;
+                S::select(q.lt(S::one()), q * q.mul_add(of(2.25), of(-3.0)), of(-0.75) * rest * rest)
+            }
+            Shape::Gaussian => of(-2.0) * q * (-q * q).exp(),
+        };
+        S::select(r.lt(of(self.support())), slope * of(self.scale / self.h), S::zero())
     }
 }
 

@@ -5,7 +5,7 @@ mod real;
 mod tensor;
 mod vector;
 
-pub use lanes::{Element, Lanes, MOST_LANES, plain};
+pub use lanes::{Element, Lanes, MOST_LANES, plain, prefetch};
 #[cfg(target_arch = "x86_64")]
 pub use lanes::{avx2, avx512};
 pub use real::Real;

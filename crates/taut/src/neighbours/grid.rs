@@ -12,6 +12,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::error::{self, SearchError};
+use crate::math::MOST_LANES;
 
 /// Cells wider than the radius by this share, so that the rounding of a cell number cannot move two particles
 /// within the radius more than one cell apart.
@@ -88,20 +89,25 @@ impl<const D: usize> CellGrid<D> {
         self.rows.iter().product()
     }
 
-    /// The particle in each slot.
-    pub fn ids(&self) -> &[u32] {
-        &self.id
+    /// The cell a particle is in; two particles of one cell have the same [`CellGrid::near`].
+    pub fn cell_of(&self, particle: usize) -> u32 {
+        self.cell[particle]
     }
 
-    /// The position in each slot, as columns in m.
+    /// The particle in each slot; behind them stand as many readable numbers as any type has lanes.
+    pub fn ids(&self) -> &[u32] {
+        &self.id[..self.cell.len()]
+    }
+
+    /// The position in each slot, as columns in m; behind each stand as many readable numbers as any type has lanes.
     pub fn positions(&self) -> [&[f64]; D] {
-        std::array::from_fn(|axis| self.x[axis].as_slice())
+        std::array::from_fn(|axis| &self.x[axis][..self.cell.len()])
     }
 
     /// Slots that may lie within the radius of `point` (m); each slot at most once, always in the same order.
     pub fn near(&self, point: [f64; D]) -> Near {
         let place = self.place(point);
-        let mut near = Near { ranges: [(0, 0); 18], len: 0 };
+        let mut near = Near::none();
         for turn in 0..3_usize.pow(D as u32 - 1) {
             let mut digits = turn;
             let mut line = 0;
@@ -173,15 +179,21 @@ impl<const D: usize> CellGrid<D> {
             sum += *count;
             *count = sum;
         }
-        self.id.resize(n, 0);
+        self.id.resize(n + MOST_LANES, 0);
+        self.id[n..].fill(0);
         for (a, &cell) in self.cell.iter().enumerate() {
             let next = &mut self.start[cell as usize + 1];
             self.id[*next as usize] = a as u32;
             *next += 1;
         }
         for (sorted, column) in self.x.iter_mut().zip(x) {
-            sorted.clear();
-            sorted.extend(self.id.iter().map(|&a| column[a as usize]));
+            sorted.resize(n + MOST_LANES, 0.0);
+            let slots = sorted.par_chunks_mut(CHUNK).zip(self.id[..n].par_chunks(CHUNK));
+            slots.for_each(|(sorted, ids)| {
+                for (x, &a) in sorted.iter_mut().zip(ids) {
+                    *x = column[a as usize];
+                }
+            });
         }
     }
 
@@ -203,6 +215,11 @@ impl<const D: usize> Default for CellGrid<D> {
 }
 
 impl Near {
+    /// Nothing.
+    pub const fn none() -> Self {
+        Self { ranges: [(0, 0); 18], len: 0 }
+    }
+
     /// The ranges of slots.
     pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         self.ranges[..self.len].iter().map(|&(from, to)| from as usize..to as usize)

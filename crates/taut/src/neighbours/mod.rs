@@ -21,6 +21,6 @@ pub use adjacency::Adjacency;
 pub use error::{SearchError, check_positions};
 pub use grid::{CellGrid, Near};
 pub use lattice::Lattice;
-pub use order::hilbert_order;
+pub use order::storage_order;
 pub use search::Search;
 pub use trivial::trivial_pairs;

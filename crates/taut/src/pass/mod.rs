@@ -34,6 +34,8 @@ pub trait PairSum<const D: usize>: Sync {
     type Reads: Record<D>;
     /// The sum.
     type Adds: Record<D>;
+    /// Whether terms use the unit vector `e` of the pair: if none does, 1/r is not fetched.
+    const DIRECTED: bool;
 
     /// Adds the contribution of b; `pair` is (a, b). `M` says which weights may be other than zero (see [`Pair`]).
     fn add<S: Real, const M: u8>(

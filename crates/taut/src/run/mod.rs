@@ -8,7 +8,7 @@ pub use serial::Serial;
 
 use crate::field::Quantity;
 use crate::kernel::Kernel;
-use crate::neighbours::{Adjacency, SearchError};
+use crate::neighbours::SearchError;
 use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
 
@@ -59,8 +59,8 @@ pub trait Run<const D: usize>: Send {
     /// If a position is not a number.
     fn relist(&mut self, how: &Relist) -> Result<(), SearchError>;
 
-    /// The neighbours of the last [`Run::relist`].
-    fn adjacency(&self) -> &Adjacency;
+    /// Mean number of neighbours in the last [`Run::relist`].
+    fn neighbours(&self) -> f64;
 
     /// For every particle: `sum` over its neighbours, and what follows from it.
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>);

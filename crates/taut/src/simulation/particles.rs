@@ -5,7 +5,7 @@ use crate::formulation::Formulation;
 use crate::integrator::{Total, TotalOptions, Updated, UpdatedOptions};
 use crate::material::Moduli;
 use crate::math::Vector;
-use crate::neighbours::{Lattice, hilbert_order};
+use crate::neighbours::{Lattice, storage_order};
 use crate::particles::Particles;
 use crate::run::Run;
 
@@ -56,19 +56,23 @@ fn particles<const D: usize>(
     p
 }
 
-/// Puts particles in the order of a space-filling curve; ids stay those of the points.
+/// The spacing of particles, roughly: of the first, if it were a square or cube, m.
+fn spacing<const D: usize>(p: &Particles<D>) -> f64 {
+    p.column(Quantity::Volume, 0).first().map_or(0.0, |v| v.powf(1.0 / D as f64))
+}
+
+/// Puts particles in the order in which they are best stored; ids stay those of the points.
 fn sort<const D: usize>(p: &mut Particles<D>) {
     let mut order = Vec::new();
     // Positions that are not numbers are reported when the run starts.
-    if hilbert_order(p.vector(Quantity::ReferencePosition), &mut order).is_ok() {
+    if storage_order(p.vector(Quantity::ReferencePosition), spacing(p), &mut order).is_ok() {
         p.reorder(&order);
     }
 }
 
-/// Puts particles that stand on a lattice in rows along its longest axis, others in the order of a space-filling curve.
+/// Puts particles that stand on a lattice in rows along its longest axis, others as [`sort`].
 fn sort_rows<const D: usize>(p: &mut Particles<D>) {
-    let spacing = p.column(Quantity::Volume, 0).first().map_or(0.0, |v| v.powf(1.0 / D as f64));
-    match Lattice::detect(p.vector(Quantity::ReferencePosition), spacing) {
+    match Lattice::detect(p.vector(Quantity::ReferencePosition), spacing(p)) {
         Ok(Some(lattice)) => p.reorder(&lattice.rows()),
         _ => sort(p),
     }

@@ -2,7 +2,7 @@
 //! pushes back, by an amount that can be written down.
 
 use crate::common::points::{block, deep};
-use crate::common::{ONE, SINGLE, STILL, Setup, largest, set};
+use crate::common::{ONE, PLACED, SINGLE, STILL, Setup, largest, set};
 use taut::field::Quantity;
 use taut::formulation::Formulation;
 use taut::kernel::Kernel;
@@ -137,9 +137,10 @@ fn alternating_velocity_in_the_updated_forms() {
     let unit = setup.moduli.shear / (setup.moduli.density * DP * DP);
     for axes in [[true, false], [false, true], [true, true]] {
         let (density, stress, _) = flowing(setup.updated_nested(), axes);
-        assert!(density < ROUNDING && stress < ROUNDING, "{density:e} {stress:e}");
+        // Neighbours differ by twice the velocity; the stress takes 2G of the gradient. (A live mode has rates of order 1.)
+        assert!(density < 2.0 * PLACED && stress < 4.0 * PLACED, "{density:e} {stress:e}");
         let (density, _, gained) = flowing(setup.non_hourglass(2), axes);
-        assert!(density < ROUNDING, "pressure is as blind: {density:e}");
+        assert!(density < 2.0 * PLACED, "pressure is as blind: {density:e}");
         assert!(gained.len() >= 42 && gained.iter().all(|&g| g < -0.3 * unit), "{axes:?} {gained:?}");
     }
 }

@@ -55,6 +55,7 @@ pub struct Rate;
 impl<const D: usize> PairSum<D> for Rate {
     type Reads = Flow<f64, D>;
     type Adds = Gradient<f64, D>;
+    const DIRECTED: bool = false;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(

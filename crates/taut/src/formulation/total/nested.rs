@@ -37,6 +37,7 @@ struct Momentum;
 impl<const D: usize> PairSum<D> for Momentum {
     type Reads = Stressed<f64, D>;
     type Adds = Force<f64, D>;
+    const DIRECTED: bool = false;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(

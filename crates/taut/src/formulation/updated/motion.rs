@@ -58,6 +58,7 @@ pub struct MomentSum;
 impl<const D: usize> PairSum<D> for MomentSum {
     type Reads = Place<f64, D>;
     type Adds = Moment<f64, D>;
+    const DIRECTED: bool = false;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(

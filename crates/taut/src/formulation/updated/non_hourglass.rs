@@ -64,6 +64,7 @@ struct Momentum;
 impl<const D: usize> PairSum<D> for Momentum {
     type Reads = Pressed<f64, D>;
     type Adds = Push<f64, D>;
+    const DIRECTED: bool = true;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(
@@ -85,6 +86,7 @@ struct RateSum;
 impl<const D: usize> PairSum<D> for RateSum {
     type Reads = Flow<f64, D>;
     type Adds = Rates<f64, D>;
+    const DIRECTED: bool = true;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(

@@ -20,19 +20,16 @@ pub struct F64x4(__m256d);
 #[derive(Clone, Copy, Debug)]
 pub struct F32x8(__m256);
 
-impl F64x4 {
-    /// The register.
-    #[inline(always)]
-    pub(super) fn register(self) -> __m256d {
-        self.0
-    }
-}
-
 impl F32x8 {
-    /// The register.
+    /// The first half plus the second, in double precision: lanes of a sum are of like size, but there may be many.
     #[inline(always)]
-    pub(super) fn register(self) -> __m256 {
-        self.0
+    fn folded(self) -> F64x4 {
+        // SAFETY: AVX2 is there (see module).
+        unsafe {
+            let low = _mm256_cvtps_pd(_mm256_castps256_ps128(self.0));
+            let high = _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0));
+            F64x4(_mm256_add_pd(low, high))
+        }
     }
 }
 
@@ -129,6 +126,36 @@ real!(
     f32
 );
 
+/// How four lanes are packed: the halves of doubles, and the bytes of whole numbers, in their new order.
+struct Packed {
+    doubles: [u32; 8],
+    bytes: [u8; 16],
+}
+
+/// For every set of lanes.
+static PACKED: [Packed; 16] = {
+    let mut table = [const { Packed { doubles: [0; 8], bytes: [0; 16] } }; 16];
+    let mut bits = 0;
+    while bits < 16 {
+        let (mut lane, mut found) = (0, 0);
+        while lane < 4 {
+            if bits >> lane & 1 == 1 {
+                table[bits].doubles[2 * found] = 2 * lane as u32;
+                table[bits].doubles[2 * found + 1] = 2 * lane as u32 + 1;
+                let mut byte = 0;
+                while byte < 4 {
+                    table[bits].bytes[4 * found + byte] = (4 * lane + byte) as u8;
+                    byte += 1;
+                }
+                found += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    table
+};
+
 impl Lanes for F64x4 {
     type E = f64;
     const N: usize = 4;
@@ -158,16 +185,19 @@ impl Lanes for F64x4 {
         // SAFETY: the caller vouches for four doubles.
         unsafe { _mm256_storeu_pd(to, self.0) }
     }
-    /// Half-register loads and inserts instead of full loads: no cross-lane shuffle is needed then.
+    /// Half-register loads and inserts instead of full loads: no cross-lane shuffle is needed then. (Macros, here and below, because a
+    /// closure may stay out of line, and then every intrinsic in it is a call.)
     #[inline(always)]
     unsafe fn transposed(from: impl Fn(usize) -> *const f64) -> [Self; 4] {
         // SAFETY: the caller vouches for four doubles behind each address.
         unsafe {
-            let half = |lo: usize, hi: usize, o: usize| {
-                let low = _mm256_castpd128_pd256(_mm_loadu_pd(from(lo).add(o)));
-                _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(from(hi).add(o)))
-            };
-            let (a, b, c, d) = (half(0, 2, 0), half(1, 3, 0), half(0, 2, 2), half(1, 3, 2));
+            macro_rules! half {
+                ($lo:literal, $hi:literal, $o:literal) => {{
+                    let low = _mm256_castpd128_pd256(_mm_loadu_pd(from($lo).add($o)));
+                    _mm256_insertf128_pd::<1>(low, _mm_loadu_pd(from($hi).add($o)))
+                }};
+            }
+            let (a, b, c, d) = (half!(0, 2, 0), half!(1, 3, 0), half!(0, 2, 2), half!(1, 3, 2));
             [
                 Self(_mm256_unpacklo_pd(a, b)),
                 Self(_mm256_unpackhi_pd(a, b)),
@@ -182,6 +212,53 @@ impl Lanes for F64x4 {
         unsafe {
             let pair = _mm_add_pd(_mm256_castpd256_pd128(self.0), _mm256_extractf128_pd::<1>(self.0));
             _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)))
+        }
+    }
+    #[inline(always)]
+    fn totals(rows: &[Self], to: &mut [f64]) {
+        debug_assert!(rows.len().is_multiple_of(4) && to.len() >= rows.len());
+        for (k, rows) in rows.chunks_exact(4).enumerate() {
+            let (a, b, c, d) = (rows[0], rows[1], rows[2], rows[3]);
+            // SAFETY: AVX2 is there (see module).
+            unsafe {
+                let ab = _mm256_add_pd(_mm256_unpacklo_pd(a.0, b.0), _mm256_unpackhi_pd(a.0, b.0));
+                let cd = _mm256_add_pd(_mm256_unpacklo_pd(c.0, d.0), _mm256_unpackhi_pd(c.0, d.0));
+                let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
+                let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
+                _mm256_storeu_pd(to[4 * k..4 * k + 4].as_mut_ptr(), _mm256_add_pd(low, high));
+            }
+        }
+    }
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
+        let order = &PACKED[bits as usize & 15];
+        // SAFETY: the caller vouches for four numbers behind each address.
+        unsafe {
+            let pairs = _mm256_loadu_si256(order.doubles.as_ptr().cast());
+            let packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(self.0), pairs);
+            _mm256_storeu_pd(to, _mm256_castps_pd(packed));
+            let bytes = _mm_loadu_si128(order.bytes.as_ptr().cast());
+            _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), bytes));
+        }
+    }
+    #[inline(always)]
+    fn bits(mask: __m256d) -> u32 {
+        // SAFETY: AVX2 is there (see module).
+        unsafe { _mm256_movemask_pd(mask) as u32 }
+    }
+    #[inline(always)]
+    fn steps_from(self, which: usize, own: u32) -> Self {
+        // SAFETY: AVX2 is there (see module).
+        unsafe {
+            let all = _mm256_castpd_ps(self.0);
+            let (low, high) = (_mm256_castps256_ps128(all), _mm256_extractf128_ps::<1>(all));
+            let theirs = if which == 0 {
+                _mm_shuffle_ps::<0b10_00_10_00>(low, high)
+            } else {
+                _mm_shuffle_ps::<0b11_01_11_01>(low, high)
+            };
+            let steps = _mm_sub_epi32(_mm_set1_epi32(own as i32), _mm_castps_si128(theirs));
+            Self(_mm256_cvtepi32_pd(steps))
         }
     }
 }
@@ -223,11 +300,13 @@ impl Lanes for F32x8 {
     unsafe fn transposed(from: impl Fn(usize) -> *const f32) -> [Self; 4] {
         // SAFETY: the caller vouches for four floats behind each address.
         unsafe {
-            let both = |l: usize| {
-                let low = _mm256_castps128_ps256(_mm_loadu_ps(from(l)));
-                _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(from(l + 4)))
-            };
-            let (a, b, c, d) = (both(0), both(1), both(2), both(3));
+            macro_rules! both {
+                ($l:literal) => {{
+                    let low = _mm256_castps128_ps256(_mm_loadu_ps(from($l)));
+                    _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(from($l + 4)))
+                }};
+            }
+            let (a, b, c, d) = (both!(0), both!(1), both!(2), both!(3));
             let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
             let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
             [
@@ -238,14 +317,27 @@ impl Lanes for F32x8 {
             ]
         }
     }
-    /// In double precision: lanes of a sum are of like size, but there may be many of them.
     #[inline(always)]
     fn total(self) -> f64 {
+        self.folded().total()
+    }
+    #[inline(always)]
+    fn totals(rows: &[Self], to: &mut [f64]) {
+        for (rows, to) in rows.chunks_exact(4).zip(to.chunks_exact_mut(4)) {
+            F64x4::totals(&[rows[0].folded(), rows[1].folded(), rows[2].folded(), rows[3].folded()], to);
+        }
+    }
+    #[inline(always)]
+    fn bits(mask: __m256) -> u32 {
+        // SAFETY: AVX2 is there (see module).
+        unsafe { _mm256_movemask_ps(mask) as u32 }
+    }
+    #[inline(always)]
+    fn steps_from(self, _: usize, own: u32) -> Self {
         // SAFETY: AVX2 is there (see module).
         unsafe {
-            let low = _mm256_cvtps_pd(_mm256_castps256_ps128(self.0));
-            let high = _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0));
-            F64x4(_mm256_add_pd(low, high)).total()
+            let theirs = _mm256_castps_si256(self.0);
+            Self(_mm256_cvtepi32_ps(_mm256_sub_epi32(_mm256_set1_epi32(own as i32), theirs)))
         }
     }
 }

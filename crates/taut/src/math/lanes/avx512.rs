@@ -1,7 +1,6 @@
 //! Lanes of AVX-512. Reached only behind [`available`], through a function that carries
 //! `#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]` and into which all of this is inlined.
 
-use super::avx2::{F32x8, F64x4};
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
 use std::arch::x86_64::*;
@@ -115,18 +114,31 @@ real!(
 );
 
 impl F64x8 {
+    /// The first two numbers of each half of `self` and `other` side by side, and the last two.
     #[inline(always)]
-    fn join(low: F64x4, high: F64x4) -> Self {
+    fn halves(self, other: Self) -> (Self, Self) {
         // SAFETY: AVX-512 is there (see module).
-        Self(unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low.register()), high.register()) })
+        unsafe {
+            let first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+            let last = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+            (
+                Self(_mm512_permutex2var_pd(self.0, first, other.0)),
+                Self(_mm512_permutex2var_pd(self.0, last, other.0)),
+            )
+        }
     }
 }
 
 impl F32x16 {
+    /// The first half plus the second, in double precision: lanes of a sum are of like size, but there may be many.
     #[inline(always)]
-    fn join(low: F32x8, high: F32x8) -> Self {
+    fn folded(self) -> F64x8 {
         // SAFETY: AVX-512 is there (see module).
-        Self(unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low.register()), high.register()) })
+        unsafe {
+            let low = _mm512_cvtps_pd(_mm512_castps512_ps256(self.0));
+            let high = _mm512_cvtps_pd(_mm512_extractf32x8_ps::<1>(self.0));
+            F64x8(_mm512_add_pd(low, high))
+        }
     }
 }
 
@@ -162,14 +174,68 @@ impl Lanes for F64x8 {
     #[inline(always)]
     unsafe fn transposed(from: impl Fn(usize) -> *const f64) -> [Self; 4] {
         // SAFETY: the caller vouches for four doubles behind each address.
-        let (low, high) = unsafe { (F64x4::transposed(&from), F64x4::transposed(|l| from(l + 4))) };
-        let word = |k: usize| Self::join(low[k], high[k]);
-        [word(0), word(1), word(2), word(3)]
+        unsafe {
+            macro_rules! both {
+                ($l:literal) => {{
+                    let low = _mm512_castpd256_pd512(_mm256_loadu_pd(from($l)));
+                    _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from($l + 4)))
+                }};
+            }
+            let (a, b, c, d) = (both!(0), both!(1), both!(2), both!(3));
+            let (ab, cd) = (_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d));
+            let (ab2, cd2) = (_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d));
+            let [first, second] = [Self(ab).halves(Self(cd)), Self(ab2).halves(Self(cd2))];
+            [first.0, second.0, first.1, second.1]
+        }
     }
     #[inline(always)]
     fn total(self) -> f64 {
         // SAFETY: AVX-512 is there (see module).
         unsafe { _mm512_reduce_add_pd(self.0) }
+    }
+    #[inline(always)]
+    fn totals(rows: &[Self], to: &mut [f64]) {
+        let (&[a, b, c, d, e, f, g, h], 8..) = (rows, to.len()) else {
+            return to.iter_mut().zip(rows).for_each(|(sum, row)| *sum = row.total());
+        };
+        // SAFETY: AVX-512 is there (see module); `to` has room for eight.
+        unsafe {
+            macro_rules! pair {
+                ($x:ident, $y:ident) => {
+                    Self(_mm512_unpacklo_pd($x.0, $y.0)) + Self(_mm512_unpackhi_pd($x.0, $y.0))
+                };
+            }
+            let (first, second) = (pair!(a, b).halves(pair!(c, d)), pair!(e, f).halves(pair!(g, h)));
+            let (first, second) = (first.0 + first.1, second.0 + second.1);
+            let low = Self(_mm512_shuffle_f64x2::<0x44>(first.0, second.0));
+            let high = Self(_mm512_shuffle_f64x2::<0xEE>(first.0, second.0));
+            (low + high).store(to.as_mut_ptr());
+        }
+    }
+    #[inline(always)]
+    fn bits(mask: __mmask8) -> u32 {
+        u32::from(mask)
+    }
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
+        // SAFETY: the caller vouches for eight numbers behind each address. (Packed in the register and stored whole: the
+        // instruction that stores only some lanes is slow on some processors. Ids go as 64 bits: half-width needs AVX-512 VL.)
+        unsafe {
+            _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits as u8, self.0));
+            let wide = _mm512_cvtepu32_epi64(_mm256_loadu_si256(ids.cast()));
+            let packed = _mm512_cvtepi64_epi32(_mm512_maskz_compress_epi64(bits as u8, wide));
+            _mm256_storeu_si256(to_ids.cast(), packed);
+        }
+    }
+    #[inline(always)]
+    fn steps_from(self, which: usize, own: u32) -> Self {
+        // SAFETY: AVX-512 is there (see module).
+        unsafe {
+            let all = _mm512_castpd_si512(self.0);
+            let shifted = if which == 0 { all } else { _mm512_srli_epi64::<32>(all) };
+            let theirs = _mm512_cvtepi64_epi32(shifted);
+            Self(_mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_set1_epi32(own as i32), theirs)))
+        }
     }
 }
 
@@ -208,17 +274,51 @@ impl Lanes for F32x16 {
     #[inline(always)]
     unsafe fn transposed(from: impl Fn(usize) -> *const f32) -> [Self; 4] {
         // SAFETY: the caller vouches for four floats behind each address.
-        let (low, high) = unsafe { (F32x8::transposed(&from), F32x8::transposed(|l| from(l + 8))) };
-        let word = |k: usize| Self::join(low[k], high[k]);
-        [word(0), word(1), word(2), word(3)]
+        unsafe {
+            // Records l, l + 4, l + 8 and l + 12 share a register, so that the transposition stays inside quarters.
+            // (A macro, because a closure may stay out of line, and then every intrinsic in it is a call.)
+            macro_rules! four {
+                ($l:literal) => {{
+                    let low = _mm512_castps128_ps512(_mm_loadu_ps(from($l)));
+                    let low = _mm512_insertf32x4::<1>(low, _mm_loadu_ps(from($l + 4)));
+                    let low = _mm512_insertf32x4::<2>(low, _mm_loadu_ps(from($l + 8)));
+                    _mm512_insertf32x4::<3>(low, _mm_loadu_ps(from($l + 12)))
+                }};
+            }
+            let (a, b, c, d) = (four!(0), four!(1), four!(2), four!(3));
+            let (ab, cd) = (_mm512_unpacklo_ps(a, b), _mm512_unpacklo_ps(c, d));
+            let (ab2, cd2) = (_mm512_unpackhi_ps(a, b), _mm512_unpackhi_ps(c, d));
+            [
+                Self(_mm512_shuffle_ps::<0x44>(ab, cd)),
+                Self(_mm512_shuffle_ps::<0xEE>(ab, cd)),
+                Self(_mm512_shuffle_ps::<0x44>(ab2, cd2)),
+                Self(_mm512_shuffle_ps::<0xEE>(ab2, cd2)),
+            ]
+        }
     }
     #[inline(always)]
     fn total(self) -> f64 {
+        self.folded().total()
+    }
+    #[inline(always)]
+    fn totals(rows: &[Self], to: &mut [f64]) {
+        let &[a, b, c, d, e, f, g, h] = rows else {
+            return to.iter_mut().zip(rows).for_each(|(sum, row)| *sum = row.total());
+        };
+        // Written out: a closure handed to `map` would not be inlined, and every intrinsic in it would be a call.
+        let (a, b, c, d) = (a.folded(), b.folded(), c.folded(), d.folded());
+        F64x8::totals(&[a, b, c, d, e.folded(), f.folded(), g.folded(), h.folded()], to);
+    }
+    #[inline(always)]
+    fn bits(mask: __mmask16) -> u32 {
+        u32::from(mask)
+    }
+    #[inline(always)]
+    fn steps_from(self, _: usize, own: u32) -> Self {
         // SAFETY: AVX-512 is there (see module).
         unsafe {
-            let low = _mm512_cvtps_pd(_mm512_castps512_ps256(self.0));
-            let high = _mm512_cvtps_pd(_mm512_extractf32x8_ps::<1>(self.0));
-            _mm512_reduce_add_pd(_mm512_add_pd(low, high))
+            let theirs = _mm512_castps_si512(self.0);
+            Self(_mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_set1_epi32(own as i32), theirs)))
         }
     }
 }

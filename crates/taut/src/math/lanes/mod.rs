@@ -56,6 +56,43 @@ pub trait Lanes: Real {
 
     /// The sum of the lanes, always added in the same order.
     fn total(self) -> f64;
+
+    /// The sum of the lanes of each of the rows, four or a multiple, written to `to`; lanes are added in an order of this type's own, always
+    /// the same.
+    #[inline(always)]
+    fn totals(rows: &[Self], to: &mut [f64]) {
+        for (sum, row) in to.iter_mut().zip(rows) {
+            *sum = row.total();
+        }
+    }
+
+    /// A mask as bits, the first lane lowest.
+    fn bits(mask: Self::Mask) -> u32;
+
+    /// Writes the lanes whose bits are set to `to`, one after the other, and the whole numbers that stand at their places from
+    /// `ids` on to `to_ids`. What follows them, up to `N` numbers in all, is overwritten too. Without branches: which lanes
+    /// count cannot be foreseen.
+    ///
+    /// # Safety
+    /// `ids` points at `N` readable, `to` and `to_ids` at `N` writable numbers.
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut Self::E, *mut u32)) {
+        let mut all = [Self::E::default(); MOST_LANES];
+        // SAFETY: room for any lanes; the rest is the caller's promise.
+        unsafe {
+            self.store(all.as_mut_ptr());
+            let mut found = 0;
+            for (lane, &x) in all.iter().enumerate().take(Self::N) {
+                to.add(found).write(x);
+                to_ids.add(found).write(ids.add(lane).read());
+                found += (bits >> lane & 1) as usize;
+            }
+        }
+    }
+
+    /// The lanes hold places on a fine grid, packed by [`Element::packed`]: how far `own` is from coordinate number `which`
+    /// of each, in steps of the grid. Coordinates count modulo 2^32, so only the distance has to be small.
+    fn steps_from(self, which: usize, own: u32) -> Self;
 }
 
 /// Most lanes of any type.
@@ -67,6 +104,35 @@ pub trait Element: Real + Default {
     fn from_f64(x: f64) -> Self;
     /// To double precision.
     fn to_f64(self) -> f64;
+
+    /// Whole-number coordinates that fit into one number as bits.
+    const COORDINATES: usize;
+    /// That many coordinates as the bits of a number, which is then only moved, never reckoned with.
+    fn packed(coordinates: &[u32]) -> Self;
+    /// Coordinate number `which` of those.
+    fn coordinate(self, which: usize) -> u32;
+    /// Writes lanes of double precision, rounded to this one.
+    ///
+    /// # Safety
+    /// `to` points at as many writable numbers as `U` has lanes.
+    unsafe fn put<U: Lanes<E = f64>>(lanes: U, to: *mut Self);
+}
+
+/// Asks for the memory at `at` ahead of time; harmless wherever it points.
+#[inline(always)]
+pub fn prefetch<T>(at: *const T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a prefetch neither faults nor changes anything.
+    unsafe {
+        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(at.cast());
+    }
+    #[cfg(target_arch = "aarch64")]
+    // SAFETY: as above.
+    unsafe {
+        std::arch::asm!("prfm pldl1keep, [{}]", in(reg) at, options(nostack, preserves_flags, readonly));
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    let _ = at;
 }
 
 impl Element for f64 {
@@ -78,6 +144,21 @@ impl Element for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+    const COORDINATES: usize = 2;
+    #[inline(always)]
+    fn packed(coordinates: &[u32]) -> Self {
+        let half = |i: usize| u64::from(coordinates.get(i).copied().unwrap_or(0));
+        Self::from_bits(half(0) | half(1) << 32)
+    }
+    #[inline(always)]
+    fn coordinate(self, which: usize) -> u32 {
+        (self.to_bits() >> (32 * which)) as u32
+    }
+    #[inline(always)]
+    unsafe fn put<U: Lanes<E = f64>>(lanes: U, to: *mut Self) {
+        // SAFETY: the caller's promise.
+        unsafe { lanes.store(to) }
+    }
 }
 
 impl Element for f32 {
@@ -88,6 +169,20 @@ impl Element for f32 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+    const COORDINATES: usize = 1;
+    #[inline(always)]
+    fn packed(coordinates: &[u32]) -> Self {
+        Self::from_bits(coordinates[0])
+    }
+    #[inline(always)]
+    fn coordinate(self, _: usize) -> u32 {
+        self.to_bits()
+    }
+    #[inline(always)]
+    unsafe fn put<U: Lanes<E = f64>>(lanes: U, to: *mut Self) {
+        // SAFETY: the caller's promise.
+        unsafe { lanes.store_single(to) }
     }
 }
 

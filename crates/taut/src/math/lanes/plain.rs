@@ -154,6 +154,17 @@ macro_rules! lanes {
                 let half = |l: usize| f64::from(self.0[l]) + f64::from(self.0[l + $n / 2]);
                 (0..$n / 2).map(half).sum()
             }
+            #[inline(always)]
+            fn bits(mask: [bool; $n]) -> u32 {
+                (0..$n).fold(0, |bits, l| bits | u32::from(mask[l]) << l)
+            }
+            #[inline(always)]
+            fn steps_from(self, which: usize, own: u32) -> Self {
+                self.map(|x| {
+                    let theirs = (x.to_bits() >> (32 * which)) as u32;
+                    own.wrapping_sub(theirs) as i32 as $e
+                })
+            }
         }
     };
 }

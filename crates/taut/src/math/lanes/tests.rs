@@ -55,6 +55,46 @@ fn exercise<V: Lanes>(eps: f64) {
     }
 }
 
+/// Sums of rows, packing, and distances on the fine grid. Whole numbers: everything is exact.
+fn exercise_pairs<V: Lanes>() {
+    let row =
+        |r: usize| -> Vec<V::E> { (0..V::N).map(|l| V::E::from_f64((1 + r * 7 + l * 3) as f64)).collect() };
+    // SAFETY: every row holds `N` numbers.
+    let rows: Vec<V> = (0..8).map(|r| unsafe { V::load(row(r).as_ptr()) }).collect();
+    let mut totals = [0.0; 8];
+    V::totals(&rows, &mut totals);
+    for (r, total) in totals.into_iter().enumerate() {
+        assert_eq!(total, row(r).into_iter().map(Element::to_f64).sum::<f64>(), "row {r}");
+        assert_eq!(total, rows[r].total());
+    }
+
+    let ids: Vec<u32> = (0..V::N as u32).map(|l| 100 + l).collect();
+    for bits in 0..1_u32 << V::N.min(8) {
+        let (mut to, mut to_ids) = (vec![V::E::default(); V::N], vec![0; V::N]);
+        // SAFETY: `N` numbers behind each pointer.
+        unsafe { rows[0].compress(bits, ids.as_ptr(), (to.as_mut_ptr(), to_ids.as_mut_ptr())) };
+        let wanted: Vec<usize> = (0..V::N).filter(|l| bits >> l & 1 == 1).collect();
+        for (k, &l) in wanted.iter().enumerate() {
+            assert_eq!((to[k].to_f64(), to_ids[k]), (row(0)[l].to_f64(), ids[l]), "lanes {bits:b}");
+        }
+    }
+    assert_eq!(V::bits(rows[0].lt(V::of(8.0))), 0b111, "lanes hold 1, 4, 7, 10, ...");
+
+    // Coordinates just below and above 2^32 are neighbours.
+    let coordinate = |l: usize, which: usize| (7 * l as u32 + 3 * which as u32).wrapping_sub(10);
+    let packed: Vec<V::E> =
+        (0..V::N).map(|l| V::E::packed(&[coordinate(l, 0), coordinate(l, 1)][..V::E::COORDINATES])).collect();
+    for which in 0..V::E::COORDINATES {
+        assert_eq!(packed[1].coordinate(which), coordinate(1, which));
+        let mut steps = vec![V::E::default(); V::N];
+        // SAFETY: `N` numbers behind each pointer.
+        unsafe { V::load(packed.as_ptr()).steps_from(which, 5).store(steps.as_mut_ptr()) };
+        for (l, step) in steps.into_iter().enumerate() {
+            assert_eq!(step.to_f64(), 15.0 - 7.0 * l as f64 - 3.0 * which as f64, "lane {l}");
+        }
+    }
+}
+
 const DOUBLE: f64 = f64::EPSILON;
 const SINGLE: f64 = f32::EPSILON as f64;
 
@@ -62,6 +102,8 @@ const SINGLE: f64 = f32::EPSILON as f64;
 fn plain_lanes() {
     exercise::<plain::Plain4>(DOUBLE);
     exercise::<plain::PlainSingle8>(SINGLE);
+    exercise_pairs::<plain::Plain4>();
+    exercise_pairs::<plain::PlainSingle8>();
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -70,6 +112,8 @@ fn avx2_lanes() {
     if avx2::available() {
         exercise::<avx2::F64x4>(DOUBLE);
         exercise::<avx2::F32x8>(SINGLE);
+        exercise_pairs::<avx2::F64x4>();
+        exercise_pairs::<avx2::F32x8>();
     }
 }
 
@@ -79,5 +123,7 @@ fn avx512_lanes() {
     if avx512::available() {
         exercise::<avx512::F64x8>(DOUBLE);
         exercise::<avx512::F32x16>(SINGLE);
+        exercise_pairs::<avx512::F64x8>();
+        exercise_pairs::<avx512::F32x16>();
     }
 }

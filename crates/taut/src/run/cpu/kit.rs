@@ -1,5 +1,6 @@
 //! Which lanes a run uses: for each precision and instruction set, one type for pair sums and one for updates.
 
+use super::lines::Plain;
 use crate::math::plain::{Plain4, PlainSingle8};
 use crate::math::{Element, Lanes};
 #[cfg(target_arch = "x86_64")]
@@ -7,8 +8,10 @@ use crate::math::{avx2, avx512};
 
 /// Lanes of one precision on one instruction set. Updates are always in double precision.
 pub trait Kit {
-    /// Lanes of pair sums.
+    /// Lanes of pair sums over a stencil.
     type Pair: Lanes;
+    /// Lanes of pair sums over a list. Half as many may be better: the last block of a particle is seldom full.
+    type Listed: Lanes<E = <Self::Pair as Lanes>::E>;
     /// Lanes of updates; as many as those of pair sums, or half.
     type Point: Lanes<E = f64>;
     /// Whether pair sums are in single precision.
@@ -18,7 +21,7 @@ pub trait Kit {
 /// How numbers are kept.
 pub trait Precision: Send + Sync + std::fmt::Debug + 'static {
     /// What pair sums read.
-    type E: Element;
+    type E: Element + Plain;
     /// Lanes without intrinsics.
     type Plain: Kit<Pair: Lanes<E = Self::E>>;
     /// Lanes of AVX2.
@@ -40,7 +43,7 @@ pub struct Double;
 pub struct Single;
 
 macro_rules! kits {
-    ($($(#[$on:meta])* $kit:ident: $pair:ty, $point:ty, $mixed:literal;)*) => {$(
+    ($($(#[$on:meta])* $kit:ident: $pair:ty, $listed:ty, $point:ty, $mixed:literal;)*) => {$(
         /// A kit.
         $(#[$on])*
         #[derive(Clone, Copy, Debug)]
@@ -48,22 +51,23 @@ macro_rules! kits {
         $(#[$on])*
         impl Kit for $kit {
             type Pair = $pair;
+            type Listed = $listed;
             type Point = $point;
             const MIXED: bool = $mixed;
         }
     )*};
 }
 kits! {
-    PlainDouble: Plain4, Plain4, false;
-    PlainSingle: PlainSingle8, Plain4, true;
+    PlainDouble: Plain4, Plain4, Plain4, false;
+    PlainSingle: PlainSingle8, PlainSingle8, Plain4, true;
     #[cfg(target_arch = "x86_64")]
-    Avx2Double: avx2::F64x4, avx2::F64x4, false;
+    Avx2Double: avx2::F64x4, avx2::F64x4, avx2::F64x4, false;
     #[cfg(target_arch = "x86_64")]
-    Avx2Single: avx2::F32x8, avx2::F64x4, true;
+    Avx2Single: avx2::F32x8, avx2::F32x8, avx2::F64x4, true;
     #[cfg(target_arch = "x86_64")]
-    Avx512Double: avx512::F64x8, avx512::F64x8, false;
+    Avx512Double: avx512::F64x8, avx512::F64x8, avx512::F64x8, false;
     #[cfg(target_arch = "x86_64")]
-    Avx512Single: avx512::F32x16, avx512::F64x8, true;
+    Avx512Single: avx512::F32x16, avx2::F32x8, avx512::F64x8, true;
 }
 
 impl Precision for Double {

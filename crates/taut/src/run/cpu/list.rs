@@ -1,135 +1,181 @@
-//! The pair list in the shape that lanes want: the neighbours of a particle in blocks of as many as there are lanes (drawn
-//! for four).
+//! The pair list of bodies without a lattice: the neighbours of a particle in blocks of as many as there are lanes (drawn
+//! for four), and for each pair as little as the weights can be made from.
 //!
 //! ```text
-//! particle a:  ids      | b0 b1 b2 b3 | b4 b5 b6 b7 | b8  a  a  a |      the last block is filled up with a itself
-//!              weights  | e_x x4, e_y x4, (e_z x4), W' x4, W'/r x4 | ...      and zero weights
-//! records:     | what the pass reads of particle 0, then V_0, up to a multiple of four numbers | of particle 1 | ...
+//! a chunk of particles owns its part of the list:
+//!   start   | first block of each particle                                |
+//!   ids     | b0 b1 b2 b3 | b4 b5 b6 b7 | b8  a  a  a | ...   the last block is filled up with a itself
+//!   w       | V_b W'/r of the same pairs, 0 in the fill   | ...
+//!   over_r  | 1/r of the same pairs, 0 in the fill        | ...   (read only where a pass needs the direction)
+//! records:  | what the pass reads of particle 0 | its place | up to a multiple of four numbers | of particle 1 | ...
 //! ```
 //!
-//! Pair data are single precision: the loop is bound by the memory they stream through, and a weight that is 6e-8 off is still a
-//! weight. What must be exact stays exact: e, W' and W'/r are rounded alike for (a, b) and (b, a) and the volume of b comes in
-//! double precision from its record, so that momentum is conserved to rounding; and the correction matrix is made
-//! from the same weights, so that gradients of linear fields are exact. Four whole records are loaded and
-//! transposed in registers: gathers from columns would be slower.
+//! The loop is bound by the memory it streams through: a list that held the gradient too (24 bytes a pair in 3D) ran at half
+//! the speed of this one (12, or 16 with the direction). The distance x_ab comes from the records instead, where each
+//! is used by all neighbours: a place is D whole numbers, the position in steps of 2^-30 of the kernel's support, counted modulo 2^32.
+//! Their difference is exact, changes sign with the pair, and is 1e-9 of the support off; so
+//! `grad W V_b = w x_ab` and `e = x_ab / r`. The volume of b is part of w in the precision of the run: V_a V_b stands in both
+//! halves of a pair, and momentum is exact to that rounding. The correction matrix is made from the same weights, so that
+//! gradients of linear fields are exact. Whole records are loaded and transposed in registers: gathers from columns would be
+//! slower. What comes next in the list is asked for ahead of time: the hardware does not see it coming (measured: twice the speed).
 
 use super::CHUNK;
-use crate::kernel::Kernel;
-use crate::math::{Lanes, Vector};
-use crate::neighbours::Adjacency;
+use super::lines::{Lines, Plain};
+use crate::math::{Element, Lanes, Vector, prefetch};
 use crate::pass::{ALL_WEIGHTS, Pair};
 
-/// Blocks of neighbours, with e, W' and W'/r of each.
+/// Blocks between the one at work and the one asked for.
+const AHEAD: usize = 16;
+/// Steps of the fine grid in the support of the kernel.
+const STEPS: f64 = (1_u32 << 30) as f64;
+
+/// Numbers that hold the place of a particle.
+pub const fn place_words<E: Element, const D: usize>() -> usize {
+    D.div_ceil(E::COORDINATES)
+}
+
+/// The pairs of one chunk of particles. Buffers grow geometrically and are kept.
 #[derive(Debug)]
-pub struct PairBlocks<const D: usize> {
-    start: Vec<u32>,
-    ids: Vec<u32>,
-    /// Neighbours in a block.
-    lanes: usize,
-    weights: Vec<f32>,
+pub struct PairChunk<E> {
+    /// The first block of each particle, and the end.
+    pub start: Vec<u32>,
+    /// Neighbours, block by block.
+    pub ids: Lines<u32>,
+    /// V_b W'/r of each.
+    pub w: Lines<E>,
+    /// 1/r of each.
+    pub over_r: Lines<f32>,
+    /// Pairs, without the fill.
+    pub pairs: u64,
+    /// Squared distances of the neighbours of one particle while they are found, m^2.
+    pub r2: Vec<f64>,
 }
 
-impl<const D: usize> Default for PairBlocks<D> {
+impl<E> Default for PairChunk<E> {
     fn default() -> Self {
-        Self { start: Vec::new(), ids: Vec::new(), weights: Vec::new(), lanes: 4 }
+        let (ids, w, over_r) = (Lines::default(), Lines::default(), Lines::default());
+        Self { start: Vec::new(), ids, w, over_r, pairs: 0, r2: Vec::new() }
     }
 }
 
-impl<const D: usize> PairBlocks<D> {
-    /// Numbers of a pair.
-    const WORDS: usize = D + 2;
+/// The pairs of all particles.
+#[derive(Debug)]
+pub struct PairList<E, const D: usize> {
+    /// Chunk by chunk.
+    pub chunks: Vec<PairChunk<E>>,
+    /// The places of all particles, in [`place_words`] numbers each.
+    pub places: Vec<E>,
+    /// A step of the fine grid, m.
+    unit: f64,
+}
 
-    /// Fills blocks of `lanes` neighbours. Buffers grow geometrically and are kept.
-    pub fn build(&mut self, list: &Adjacency, x: [&[f64]; D], kernel: &Kernel, lanes: usize) {
-        let len = list.particles();
-        self.lanes = lanes;
-        self.start.clear();
-        self.start.push(0);
-        let mut blocks = 0;
-        for a in 0..len {
-            blocks += list.of(a).len().div_ceil(lanes) as u32;
-            self.start.push(blocks);
-        }
-        self.ids.resize(blocks as usize * lanes, 0);
-        self.weights.resize(blocks as usize * lanes * Self::WORDS, 0.0);
-        let fill = Fill { list, x, kernel, start: &self.start, lanes };
-        fill.all(0, len, &mut self.ids, &mut self.weights);
-    }
-
-    /// The blocks of particle `a`.
-    #[inline(always)]
-    pub fn of(&self, a: usize) -> std::ops::Range<usize> {
-        self.start[a] as usize..self.start[a + 1] as usize
-    }
-
-    /// The neighbours of a block; the list was made for the lanes of `V`.
-    #[inline(always)]
-    pub fn ids<V: Lanes>(&self, block: usize) -> &[u32] {
-        debug_assert_eq!(V::N, self.lanes);
-        &self.ids[block * V::N..(block + 1) * V::N]
-    }
-
-    /// The pairs of a block, given the volumes of the neighbours.
-    #[inline(always)]
-    pub fn pair<V: Lanes>(&self, block: usize, volume: V) -> Pair<V, D, ALL_WEIGHTS> {
-        let size = V::N * Self::WORDS;
-        let words = &self.weights[block * size..(block + 1) * size];
-        // SAFETY: `words` holds D + 2 times as many numbers as lanes.
-        let word = |k: usize| unsafe { V::load_single(words.as_ptr().add(V::N * k)) };
-        let mut e = Vector::zero();
-        for i in 0..D {
-            e.0[i] = word(i);
-        }
-        Pair { grad_w: e.times(word(D) * volume), w: word(D + 1) * volume, e }
+impl<E, const D: usize> Default for PairList<E, D> {
+    fn default() -> Self {
+        Self { chunks: Vec::new(), places: Vec::new(), unit: 1.0 }
     }
 }
 
-/// What is needed to fill the blocks of a range of particles.
-struct Fill<'a, const D: usize> {
-    list: &'a Adjacency,
-    x: [&'a [f64]; D],
-    kernel: &'a Kernel,
-    start: &'a [u32],
-    lanes: usize,
+impl<E: Plain> PairChunk<E> {
+    /// Makes room for so many neighbours in all, and so many of one particle.
+    #[inline]
+    pub fn room(&mut self, all: usize, one: usize) {
+        if self.ids.len() < all {
+            let room = all + all / 4;
+            self.ids.resize(room);
+            self.w.resize(room);
+            self.over_r.resize(room);
+        }
+        if self.r2.len() < one {
+            self.r2.resize(one + one / 4, 0.0);
+        }
+    }
 }
 
-impl<const D: usize> Fill<'_, D> {
-    /// Fills particles `first..end`, splitting the range (at multiples of the chunk) until it is small.
-    fn all(&self, first: usize, end: usize, ids: &mut [u32], weights: &mut [f32]) {
-        if end - first <= 4 * CHUNK {
-            for a in first..end {
-                self.one(a, self.start[first] as usize, (ids, weights));
-            }
-            return;
-        }
-        let middle = (first + (end - first) / 2).next_multiple_of(CHUNK);
-        let cut = (self.start[middle] - self.start[first]) as usize * self.lanes;
-        let (low, high) = ids.split_at_mut(cut);
-        let (light, heavy) = weights.split_at_mut(cut * PairBlocks::<D>::WORDS);
-        rayon::join(|| self.all(first, middle, low, light), || self.all(middle, end, high, heavy));
-    }
-
-    fn one(&self, a: usize, base: usize, (ids, weights): (&mut [u32], &mut [f32])) {
-        let (n, size) = (self.lanes, self.lanes * PairBlocks::<D>::WORDS);
-        let blocks = self.start[a] as usize - base..self.start[a + 1] as usize - base;
-        for (block, some) in blocks.zip(self.list.of(a).chunks(n)) {
-            let ids = &mut ids[block * n..(block + 1) * n];
-            ids.fill(a as u32);
-            let words = &mut weights[block * size..(block + 1) * size];
-            words.fill(0.0);
-            for (l, &b) in some.iter().enumerate() {
-                ids[l] = b;
-                let x_ab: Vector<f64, D> = Vector::from_fn(|i| self.x[i][a] - self.x[i][b as usize]);
-                let r = x_ab.norm_squared().sqrt();
-                let slope = self.kernel.dw(r);
-                // Particles on top of each other have no direction and no force.
-                let inverse = if r > 0.0 { 1.0 / r } else { 0.0 };
-                for i in 0..D {
-                    words[n * i + l] = (x_ab[i] * inverse) as f32;
-                }
-                words[n * D + l] = slope as f32;
-                words[n * (D + 1) + l] = (slope * inverse) as f32;
+impl<E: Element + Plain, const D: usize> PairList<E, D> {
+    /// Prepares for particles at `x` and a kernel of this support (m): chunks and places.
+    pub fn prepare(&mut self, x: [&[f64]; D], support: f64) {
+        let len = x[0].len();
+        self.unit = support / STEPS;
+        self.chunks.resize_with(len.div_ceil(CHUNK), PairChunk::default);
+        self.places.resize(len * place_words::<E, D>(), E::default());
+        let steps = |a: usize, axis: usize| (x[axis][a] / self.unit).round() as i64 as u32;
+        for (a, place) in self.places.chunks_exact_mut(place_words::<E, D>()).enumerate() {
+            let coordinates: [u32; D] = std::array::from_fn(|axis| steps(a, axis));
+            for (word, some) in place.iter_mut().zip(coordinates.chunks(E::COORDINATES)) {
+                *word = E::packed(some);
             }
         }
+    }
+
+    /// Pairs, each counted from both sides.
+    pub fn pairs(&self) -> u64 {
+        self.chunks.iter().map(|chunk| chunk.pairs).sum()
+    }
+
+    /// The coordinates of a particle on the fine grid, from the numbers that hold them.
+    #[inline(always)]
+    pub fn coordinates(place: &[E]) -> [u32; D] {
+        std::array::from_fn(|axis| place[axis / E::COORDINATES].coordinate(axis % E::COORDINATES))
+    }
+}
+
+/// What makes pairs of a chunk from records.
+#[derive(Clone, Copy)]
+pub struct Weights<'a, E, const D: usize> {
+    chunk: &'a PairChunk<E>,
+    unit: f64,
+}
+
+impl<E: Element + Plain, const D: usize> PairList<E, D> {
+    /// The weights of a chunk.
+    #[inline(always)]
+    pub fn weights(&self, chunk: usize) -> Weights<'_, E, D> {
+        Weights { chunk: &self.chunks[chunk], unit: self.unit }
+    }
+}
+
+impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
+    /// The blocks of the particle that is number `i` of the chunk.
+    #[inline(always)]
+    pub fn blocks(&self, i: usize) -> std::ops::Range<usize> {
+        self.chunk.start[i] as usize..self.chunk.start[i + 1] as usize
+    }
+
+    /// The neighbours of a block; asks for those of a later one.
+    #[inline(always)]
+    pub fn ids<V: Lanes>(&self, block: usize) -> &'a [u32] {
+        let first = block * V::N;
+        prefetch(self.chunk.ids.as_ptr().wrapping_add(first + AHEAD * V::N));
+        prefetch(self.chunk.w.as_ptr().wrapping_add(first + AHEAD * V::N));
+        &self.chunk.ids[first..first + V::N]
+    }
+
+    /// The pairs of a block, with their directions if wanted. `place` holds the places of the neighbours, `own` that of the particle.
+    #[inline(always)]
+    pub fn pair<V: Lanes<E = E>>(
+        &self,
+        (block, directed): (usize, bool),
+        own: [u32; D],
+        place: &[V],
+    ) -> Pair<V, D, ALL_WEIGHTS> {
+        let (first, unit) = (block * V::N, V::of(self.unit));
+        debug_assert!(first + V::N <= self.chunk.w.len() && self.chunk.w.len() <= self.chunk.over_r.len());
+        // SAFETY: `w` and `over_r` are as long as `ids`, and `ids` found this block in it.
+        let (w, over_r) = unsafe {
+            let over_r = self.chunk.over_r.as_ptr().add(first);
+            let over_r = if directed {
+                prefetch(over_r.wrapping_add(AHEAD * V::N));
+                V::load_single(over_r)
+            } else {
+                V::zero()
+            };
+            (V::load(self.chunk.w.as_ptr().add(first)), over_r)
+        };
+        let mut x = Vector::zero();
+        for axis in 0..D {
+            let steps = place[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
+            x.0[axis] = steps * unit;
+        }
+        Pair { grad_w: x.times(w), w, e: x.times(over_r) }
     }
 }

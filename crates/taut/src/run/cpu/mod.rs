@@ -5,6 +5,7 @@
 //! Parallel loops use the rayon pool they are called from: a simulation enters one pool for its whole run.
 
 mod kit;
+mod lines;
 mod list;
 mod places;
 mod stencil;
@@ -15,15 +16,17 @@ pub use kit::{Double, InstructionSet, Precision, Single};
 
 use super::{Among, Relist, Run};
 use crate::field::{Quantity, Record};
-use crate::neighbours::{Adjacency, Lattice, Search, SearchError};
+use crate::neighbours::{CellGrid, Lattice, SearchError};
 use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
-use list::PairBlocks;
+use lines::Lines;
+use list::{PairList, place_words};
 use places::{PairPlaces, Shared};
 use rayon::prelude::*;
+use std::sync::atomic::AtomicU64;
 use stencil::Stencil;
 use store::Store;
-use walk::{Chunk, Then, Updating, Walk};
+use walk::{Chunk, MOST_PAIRS, Then, Updating, Walk};
 
 /// Particles that one thread takes at a time.
 const CHUNK: usize = 128;
@@ -33,12 +36,11 @@ const CHUNK: usize = 128;
 pub struct Cpu<const D: usize, P: Precision = Double> {
     store: Store<D, P>,
     set: InstructionSet,
-    search: Search<D>,
-    adjacency: Adjacency,
-    blocks: PairBlocks<D>,
+    grid: CellGrid<D>,
+    list: PairList<P::E, D>,
     stencil: Option<Stencil<D>>,
     bodies: Vec<u32>,
-    records: Vec<P::E>,
+    records: Lines<P::E>,
     partial: Vec<f64>,
 }
 
@@ -65,12 +67,11 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
         Self {
             store: Store::new(particles),
             set,
-            search: Search::new(),
-            adjacency: Adjacency::default(),
-            blocks: PairBlocks::default(),
+            grid: CellGrid::new(),
+            list: PairList::default(),
             stencil: None,
             bodies: Vec::new(),
-            records: Vec::new(),
+            records: Lines::default(),
             partial: Vec::new(),
         }
     }
@@ -96,13 +97,38 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
         });
     }
 
+    fn one_body(&self) -> bool {
+        self.bodies.iter().all(|&b| b == self.bodies[0])
+    }
+
+    /// Makes the list of pairs.
+    fn search(&mut self, how: &Relist) -> Result<(), SearchError> {
+        let x = self.store.particles().vector(how.positions);
+        self.grid.build(x, how.kernel.support())?;
+        self.list.prepare(x, how.kernel.support());
+        let mut chunks = std::mem::take(&mut self.list.chunks);
+        let pairs = AtomicU64::new(0);
+        let listing = walk::Listing {
+            grid: &self.grid,
+            x,
+            volume: self.store.particles().column(Quantity::Volume, 0),
+            same: (how.among == Among::SameBody && !self.one_body()).then_some(self.bodies.as_slice()),
+            kernel: &how.kernel,
+            chunks: Shared::new(&mut chunks),
+            pairs: &pairs,
+        };
+        self.cut(&listing, self.len(), CHUNK);
+        self.list.chunks = chunks;
+        let found = pairs.into_inner();
+        if found > MOST_PAIRS { Err(SearchError::TooMany { what: "pairs", found }) } else { Ok(()) }
+    }
+
     /// The stencil of the particles, if they stand on a lattice, row by row, and all have the same volume.
     fn lattice(&self, how: &Relist) -> Result<Option<Stencil<D>>, SearchError> {
         let particles = self.store.particles();
         let volume = particles.column(Quantity::Volume, 0);
         let equal = volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
-        let one = self.bodies.iter().all(|&b| b == self.bodies[0]);
-        if how.positions != Quantity::ReferencePosition || !equal || !one {
+        if how.positions != Quantity::ReferencePosition || !equal || !self.one_body() {
             return Ok(None);
         }
         let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
@@ -113,21 +139,23 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
 
     /// The pair loop over packed records and a list.
     fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
-        let mut own = self.store.pair_places::<S::Reads>();
-        own.push(self.store.pair_column(Quantity::Volume, 0));
-        let stride = own.len().next_multiple_of(4);
-        let len = self.len();
+        let own = self.store.pair_places::<S::Reads>();
+        let (stride, len) = (walk::stride::<S::Reads, P::E, D>(), self.len());
+        let (words, width) = (own.len(), place_words::<P::E, D>());
+        let places = &self.list.places;
         if self.records.len() < len * stride {
-            self.records.resize(len * stride, P::E::default());
+            self.records.resize(len * stride);
         }
         self.records[..len * stride].par_chunks_mut(CHUNK * stride).enumerate().for_each(|(c, rows)| {
             for (i, row) in rows.chunks_exact_mut(stride).enumerate() {
                 // SAFETY: the place is below `len`; nobody writes columns while they are packed.
                 unsafe { own.gather(c * CHUNK + i, row) };
+                let a = c * CHUNK + i;
+                row[words..words + width].copy_from_slice(&places[a * width..(a + 1) * width]);
             }
         });
-        let (records, blocks) = (&self.records[..len * stride], &self.blocks);
-        self.cut(&walk::Listed { sum, then, records, stride, blocks, now }, len, CHUNK);
+        let (records, list) = (&self.records[..len * stride], &self.list);
+        self.cut(&walk::Listed { sum, then, records, list, now }, len, CHUNK);
     }
 
     /// The pair loop over a stencil. What the sum reads of neighbours must not change under it: if an update of `writes` follows, the
@@ -151,7 +179,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
         let len = self.len();
         let stride = len + 48;
         let room = self.records.len().max(own.len() * stride + 32);
-        self.records.resize(room, P::E::default());
+        self.records.resize(room);
         for k in 0..own.len() {
             // SAFETY: columns are `len` long and nobody writes them here.
             let column = unsafe { own.column(k, len) };
@@ -184,19 +212,13 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
         let particles = self.store.particles();
         self.bodies.clear();
         self.bodies.extend(particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
-        let same = (how.among == Among::SameBody).then_some(self.bodies.as_slice());
-        let x = particles.vector(how.positions);
-        self.search.pairs(x, how.kernel.support(), same, &mut self.adjacency)?;
         self.stencil = self.lattice(how)?;
-        if self.stencil.is_none() {
-            let x = self.store.particles().vector(how.positions);
-            self.blocks.build(&self.adjacency, x, &how.kernel, self.set.lanes::<P>());
-        }
-        Ok(())
+        if self.stencil.is_none() { self.search(how) } else { Ok(()) }
     }
 
-    fn adjacency(&self) -> &Adjacency {
-        &self.adjacency
+    fn neighbours(&self) -> f64 {
+        let pairs = self.stencil.as_ref().map_or_else(|| self.list.pairs(), Stencil::pairs);
+        pairs as f64 / self.len().max(1) as f64
     }
 
     fn pairs<S: PairSum<D>, U: Update<D, Sum = S::Adds>>(&mut self, sum: &S, then: &U, now: Now<f64>) {

@@ -6,8 +6,16 @@ use crate::run::MAX_WORDS;
 
 /// A pointer that threads share. Sound because every thread writes its own chunk only, and what a pair sum reads of others is not
 /// written meanwhile.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Shared<E>(*mut E);
+
+impl<E> Clone for Shared<E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Shared<E> {}
 
 // SAFETY: see above; each use states which elements it touches.
 unsafe impl<E> Send for Shared<E> {}
@@ -18,6 +26,14 @@ impl<E> Shared<E> {
     /// Shares a slice.
     pub fn new(slice: &mut [E]) -> Self {
         Self(slice.as_mut_ptr())
+    }
+
+    /// # Safety
+    /// `i` is inside the slice, which outlives the reference, and nobody else touches element `i` meanwhile.
+    #[inline(always)]
+    pub unsafe fn get_mut<'a>(self, i: usize) -> &'a mut E {
+        // SAFETY: the caller's promise.
+        unsafe { &mut *self.0.add(i) }
     }
 
     /// # Safety

@@ -71,13 +71,14 @@ pub struct Stencil<const D: usize> {
     pub blocks: Vec<Block>,
     /// Most particles of a block.
     lanes: usize,
+    pairs: u64,
 }
 
 impl<const D: usize> Stencil<D> {
     /// The stencil of particles stored row by row along the long axis of the lattice, all of the same volume.
     pub fn new(lattice: &Lattice<D>, volume: f64, kernel: &Kernel, lanes: usize) -> Self {
         let (codes, entries, programs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut new = Self { codes, entries, programs, blocks: Vec::new(), lanes };
+        let mut new = Self { codes, entries, programs, blocks: Vec::new(), lanes, pairs: 0 };
         let offsets = new.book(lattice, volume, kernel);
         let rows = Rows::new(lattice);
         let mut known: HashMap<(usize, Vec<Entry>), u32> = HashMap::new();
@@ -91,9 +92,23 @@ impl<const D: usize> Stencil<D> {
                     program
                 }
             };
+            new.pairs += new.pairs_of(program);
             new.blocks.push(Block { first: first as u32, active: active as u16, program });
         }
         new
+    }
+
+    /// Pairs, each counted from both sides.
+    pub fn pairs(&self) -> u64 {
+        self.pairs
+    }
+
+    /// Pairs of one block.
+    fn pairs_of(&self, program: u32) -> u64 {
+        let lists = &self.programs[program as usize];
+        // The whole patterns and the partial entries: each entry once.
+        let entries = lists[4..].iter().flat_map(|l| &self.entries[l.start as usize..l.end as usize]);
+        entries.map(|entry| u64::from(entry.mask.count_ones())).sum()
     }
 
     /// Fills the code book; the cells of the stencil in the order of their codes.

@@ -1,10 +1,12 @@
 //! The loops over a chunk of particles, generic in the lanes, and their entry points for each instruction set.
 
 mod listed;
+mod listing;
 mod points;
 mod stencilled;
 
-pub use listed::Listed;
+pub use listed::{Listed, stride};
+pub use listing::{Listing, MOST_PAIRS};
 pub use points::{Each, Fold};
 pub use stencilled::Stencilled;
 
@@ -15,6 +17,7 @@ use crate::math::{Lanes, MOST_LANES};
 use crate::pass::{Now, Update};
 use crate::run::MAX_WORDS;
 use std::marker::PhantomData;
+use std::mem::MaybeUninit;
 
 /// A run of consecutive particles (or blocks of them) that one thread works on.
 pub struct Chunk {
@@ -57,23 +60,58 @@ pub unsafe fn avx512<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: 
     walk.chunk::<K>(chunk);
 }
 
-/// Sums of some consecutive particles: number `k` of particle `l` at `words[k][l]`.
+/// Sums of some consecutive particles: number `k` of particle `l` at `words[k][l]`. Rows are read only after they were written.
 pub struct Sums {
-    words: [[f64; MOST_LANES]; MAX_WORDS],
+    words: [[MaybeUninit<f64>; MOST_LANES]; MAX_WORDS],
 }
 
 impl Sums {
     /// No sums yet.
     #[inline(always)]
-    pub fn new() -> Self {
-        Self { words: [[0.0; MOST_LANES]; MAX_WORDS] }
+    pub const fn new() -> Self {
+        Self { words: [[MaybeUninit::uninit(); MOST_LANES]; MAX_WORDS] }
+    }
+
+    #[inline(always)]
+    fn row(&mut self, k: usize) -> *mut f64 {
+        self.words[k].as_mut_ptr().cast()
     }
 }
 
 /// Sums whose lanes are the particles.
 pub struct Together<'a>(pub &'a mut Sums);
-/// The sum of particle `.1`, spread over the lanes.
-pub struct Spread<'a>(pub &'a mut Sums, pub usize);
+/// Sums of which each particle's is still spread over the lanes: number `k` of particle `l` is the total of `rows[k][l]`.
+pub struct Spread<V> {
+    rows: [[MaybeUninit<V>; MOST_POINTS]; MAX_WORDS],
+    /// The particle that is written.
+    pub lane: usize,
+}
+
+/// Most lanes of an update.
+const MOST_POINTS: usize = 8;
+
+impl<V: Lanes> Spread<V> {
+    /// No sums yet.
+    #[inline(always)]
+    pub const fn new() -> Self {
+        Self { rows: [[MaybeUninit::uninit(); MOST_POINTS]; MAX_WORDS], lane: 0 }
+    }
+
+    /// Adds up the lanes of the first `words` numbers of `count` particles, as `room` of them: those that are not there are zero.
+    #[inline(always)]
+    pub fn total(&mut self, words: usize, (count, room): (usize, usize), to: &mut Sums) {
+        for (k, row) in self.rows.iter_mut().enumerate().take(words) {
+            for lane in &mut row[count..room] {
+                lane.write(V::zero());
+            }
+            // SAFETY: the first `count` were written by `put`, the others just now; a row of sums is longer than `room`.
+            unsafe {
+                let row = std::slice::from_raw_parts(row.as_ptr().cast::<V>(), room);
+                V::totals(row, std::slice::from_raw_parts_mut(to.row(k), room));
+            }
+        }
+    }
+}
 /// Sums of particles from `.1` on.
 pub struct From<'a>(pub &'a Sums, pub usize);
 
@@ -81,22 +119,22 @@ impl<V: Lanes> Sink<V> for Together<'_> {
     #[inline(always)]
     fn put(&mut self, k: usize, x: V) {
         // SAFETY: a row holds as many numbers as any type has lanes.
-        unsafe { x.store_double(self.0.words[k].as_mut_ptr()) }
+        unsafe { x.store_double(self.0.row(k)) }
     }
 }
 
-impl<V: Lanes> Sink<V> for Spread<'_> {
+impl<V: Lanes> Sink<V> for Spread<V> {
     #[inline(always)]
     fn put(&mut self, k: usize, x: V) {
-        self.0.words[k][self.1] = x.total();
+        self.rows[k][self.lane].write(x);
     }
 }
 
 impl<U: Lanes<E = f64>> Source<U> for From<'_> {
     #[inline(always)]
     fn get(&self, k: usize) -> U {
-        // SAFETY: updates have at most as many lanes as pair sums, and start at a multiple of their own.
-        unsafe { U::load(self.0.words[k].as_ptr().add(self.1)) }
+        // SAFETY: the sums were written, for all lanes of an update, of which there are at most as many as of pair sums.
+        unsafe { U::load(self.0.words[k].as_ptr().cast::<f64>().add(self.1)) }
     }
 }
 

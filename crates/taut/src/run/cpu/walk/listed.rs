@@ -6,17 +6,22 @@ use crate::math::{Element, Lanes};
 use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::list::PairBlocks;
+use crate::run::cpu::lines::Plain;
+use crate::run::cpu::list::{PairList, Weights, place_words};
 
 /// A sum over neighbours and the update that follows it.
 pub struct Listed<'a, P, E, const D: usize> {
     pub sum: &'a P,
     pub then: Then<'a>,
-    /// Packed records, `stride` numbers for each particle; the volume follows what the pass reads.
+    /// Packed records, [`stride`] numbers for each particle; the place follows what the pass reads.
     pub records: &'a [E],
-    pub stride: usize,
-    pub blocks: &'a PairBlocks<D>,
+    pub list: &'a PairList<E, D>,
     pub now: Now<f64>,
+}
+
+/// Numbers from one packed record of `R` to the next.
+pub const fn stride<R: Record<D>, E: Element, const D: usize>() -> usize {
+    (R::WORDS + place_words::<E, D>()).next_multiple_of(4)
 }
 
 /// The words of the neighbours, lane by lane.
@@ -39,42 +44,50 @@ impl<V: Lanes> Source<V> for Broadcast<'_, V::E> {
     }
 }
 
-impl<P: PairSum<D>, E: Element, const D: usize> Listed<'_, P, E, D> {
-    /// The sum over the neighbours of `a`, as number `lane` of `sums`.
+impl<P: PairSum<D>, E: Element + Plain, const D: usize> Listed<'_, P, E, D> {
+    /// The sum over the neighbours of `a`, number `i` of its chunk, as row `lane` of `sums`.
     #[inline(always)]
-    fn gather<V: Lanes<E = E>>(&self, a: usize, lane: usize, sums: &mut Sums) {
-        let row = &self.records[a * self.stride..(a + 1) * self.stride];
+    fn gather<V: Lanes<E = E>>(
+        &self,
+        (a, i): (usize, usize),
+        weights: &Weights<'_, E, D>,
+        to: &mut Spread<V>,
+    ) {
+        let (stride, words) = (stride::<P::Reads, E, D>(), P::Reads::WORDS);
+        let row = &self.records[a * stride..(a + 1) * stride];
         let own = P::Reads::read::<V>(&Broadcast(row));
+        let coordinates = PairList::<E, D>::coordinates(&row[words..]);
         let now = self.now.cast();
         let mut sum = P::Adds::nought::<V>();
-        for block in self.blocks.of(a) {
-            let ids = self.blocks.ids::<V>(block);
-            let mut words = Words([V::zero(); MAX_WORDS]);
-            for k in (0..P::Reads::WORDS + 1).step_by(4) {
+        for block in weights.blocks(i) {
+            let ids = weights.ids::<V>(block);
+            let mut other = Words([V::zero(); MAX_WORDS]);
+            for k in (0..stride).step_by(4) {
                 // SAFETY: neighbours are particles, and every row is padded to a multiple of four numbers.
-                let four = unsafe {
-                    V::transposed(|l| self.records.as_ptr().add(ids[l] as usize * self.stride + k))
-                };
-                words.0[k..k + 4].copy_from_slice(&four);
+                let four =
+                    unsafe { V::transposed(|l| self.records.as_ptr().add(ids[l] as usize * stride + k)) };
+                other.0[k..k + 4].copy_from_slice(&four);
             }
-            let other = P::Reads::read::<V>(&words);
-            let pair = self.blocks.pair::<V>(block, words.0[P::Reads::WORDS]);
-            self.sum.add(&mut sum, (&own, &other), &pair, &now);
+            let pair = weights.pair::<V>((block, P::DIRECTED), coordinates, &other.0[words..]);
+            self.sum.add(&mut sum, (&own, &P::Reads::read::<V>(&other)), &pair, &now);
         }
-        P::Adds::write(sum, &mut Spread(sums, lane));
+        P::Adds::write(sum, to);
     }
 }
 
-impl<P: PairSum<D>, E: Element, const D: usize> Walk<E> for Listed<'_, P, E, D> {
+impl<P: PairSum<D>, E: Element + Plain, const D: usize> Walk<E> for Listed<'_, P, E, D> {
     #[inline(always)]
     fn chunk<K: Kit<Pair: Lanes<E = E>>>(&self, chunk: &Chunk) {
-        let mut sums = Sums::new();
+        let weights = self.list.weights(chunk.index);
+        let (mut sums, mut rows) = (Sums::new(), Spread::<K::Listed>::new());
         let mut first = chunk.first;
         while first < chunk.end {
             let count = (chunk.end - first).min(K::Point::N);
             for lane in 0..count {
-                self.gather::<K::Pair>(first + lane, lane, &mut sums);
+                rows.lane = lane;
+                self.gather((first + lane, first + lane - chunk.first), &weights, &mut rows);
             }
+            rows.total(P::Adds::WORDS, (count, K::Point::N), &mut sums);
             self.then.at(first, count, &sums);
             first += count;
         }
