@@ -44,12 +44,17 @@ const FORMS: [Form; 6] = [
 ];
 
 impl Subject {
-    /// All of them.
+    /// All of them. With single stepping the list is made anew all the time: how the particles stand makes no difference there.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for form in FORMS {
             for dimension in [2, 3] {
                 for arrangement in [Arrangement::Lattice, Arrangement::Irregular] {
+                    if matches!(form, Form::Updated(_, Stepping::Single))
+                        && arrangement != Arrangement::Lattice
+                    {
+                        continue;
+                    }
                     for numbers in [Numbers::Double, Numbers::Single] {
                         all.push(Self { form, dimension, arrangement, numbers });
                     }
@@ -96,9 +101,9 @@ mod tests {
     #[test]
     fn names_are_unique_and_words_choose() {
         let names: BTreeSet<String> = Subject::all().iter().map(Subject::name).collect();
-        assert_eq!(names.len(), 48);
+        assert_eq!(names.len(), 40);
         let words = |words: &[&str]| chosen(&words.iter().map(ToString::to_string).collect::<Vec<_>>()).len();
-        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (48, 8, 0));
+        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (40, 8, 0));
         assert_eq!(words(&["ul-nested/dual-steps/2d/lattice/single"]), 1);
     }
 }

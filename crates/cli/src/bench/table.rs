@@ -12,6 +12,9 @@ pub enum Style {
     Markdown,
 }
 
+/// 16 GiB, bytes.
+const SIXTEEN_GIB: f64 = 17_179_869_184.0;
+
 type Cells = Vec<String>;
 
 /// The limits of the machine.
@@ -29,12 +32,13 @@ pub fn rows(report: &Report, earlier: Option<&Report>, style: Style) -> Vec<Stri
     let mut head: Cells = [
         "body",
         "particles",
-        "pairs/a",
+        "neighbours",
         "threads",
         "Mps/s",
         "per core",
         "Mpairs/s",
-        "bytes/a",
+        "B/particle",
+        "M in 16 GiB",
         "of FMA",
         "of triad",
         "steps/list",
@@ -68,6 +72,7 @@ fn cells(row: &Row) -> Cells {
         format!("{:.2}", million / row.threads as f64),
         format!("{:.0}", row.pairs_per_second / 1e6),
         maybe(row.bytes_per_particle, &|x| format!("{x:.0}")),
+        maybe(row.bytes_per_particle, &|x| format!("{:.1}", SIXTEEN_GIB / x / 1e6)),
         share(row.of_flops),
         maybe(row.of_triad, &share),
         maybe(row.steps_per_list, &|x| format!("{x:.1}")),
@@ -161,7 +166,7 @@ mod tests {
         let lines = rows(&report(3e6, &["a"]), None, Style::Markdown);
         assert_eq!(lines.len(), 3);
         let bars = lines.iter().map(|line| line.matches('|').count()).collect::<Vec<_>>();
-        assert_eq!(bars, [13, 13, 13]);
+        assert_eq!(bars, [14, 14, 14]);
         assert!(lines[1].starts_with("|--") && lines[1].ends_with(":|"));
     }
 }
