@@ -369,5 +369,5 @@ fn turns_are_counted_of_positions_about_an_axis_that_is_there() {
     let position = |text: String| text.replace("quantity = \"velocity\"", "quantity = \"position\"");
     assert!(parse(&position(with("z"))).is_ok());
     // In the plane there is one axis to go around.
-    assert!(message(&position(with("x"))).contains("unknown axis `x`, expected one of z"));
+    assert!(message(&position(with("x"))).contains("unknown axis `x`, expected one of `z`"));
 }

@@ -119,7 +119,7 @@ pub struct ValidateOptions {
 /// What to measure, and what to do with it.
 #[derive(Debug, Args)]
 pub struct BenchOptions {
-    /// Only bodies whose name contains all of these words, for instance `tl- 3d double` [default: all, five minutes]
+    /// Only bodies whose name contains all of these words, for instance `tl- 3d double` [default: all, four minutes]
     #[arg(value_name = "WORD")]
     pub filter: Vec<String>,
     /// Smaller bodies, and a sixth of the time for each

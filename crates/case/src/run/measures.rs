@@ -124,7 +124,7 @@ mod tests {
             (0..=60).map(|i| (2.0 * angle(i).cos(), 2.0 * angle(i).sin())).unzip();
         let turns = turns(&x, &y);
         let near = |i: usize, wanted: f64| assert!((turns[i] - wanted).abs() < 1e-12, "{i}: {}", turns[i]);
-        [(0, 0.0), (30, 2.25), (60, -0.75)].map(|(i, wanted)| near(i, wanted));
+        [(0, 0.0), (30, 2.25), (60, -0.75)].iter().for_each(|&(i, wanted)| near(i, wanted));
         assert_eq!(turns.len(), 61);
         assert!(super::turns(&[], &[]).is_empty());
     }
