@@ -18,15 +18,18 @@ words=("${@:4}")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
+# The full name of a commit.
+named() {
+    git rev-parse --verify --quiet "$1^{commit}" || { echo "error: there is no commit \`$1\`" >&2; exit 2; }
+}
+
 # Builds a commit; prints its program.
 build() {
-    local commit folder
-    commit=$(git rev-parse --verify --quiet "$1^{commit}") || { echo "error: there is no commit \`$1\`" >&2; exit 2; }
-    folder=$PWD/target/compare/$commit
+    local folder=$PWD/target/compare/$1
     if [ ! -x "$folder/release/taut" ]; then
-        mkdir -p "$scratch/$commit"
-        git archive "$commit" | tar -x -C "$scratch/$commit"
-        cargo build --release --locked --manifest-path "$scratch/$commit/Cargo.toml" --target-dir "$folder" >&2
+        mkdir -p "$scratch/$1"
+        git archive "$1" | tar -x -C "$scratch/$1"
+        cargo build --release --locked --manifest-path "$scratch/$1/Cargo.toml" --target-dir "$folder" >&2
     fi
     "$folder/release/taut" bench --help >/dev/null 2>&1 || { echo "error: $1 has no \`taut bench\`" >&2; exit 2; }
     echo "$folder/release/taut"
@@ -46,8 +49,10 @@ rows() {
     done <"$1"
 }
 
-old=$(build "$1")
-new=$(build "$2")
+old_commit=$(named "$1")
+new_commit=$(named "$2")
+old=$(build "$old_commit")
+new=$(build "$new_commit")
 for ((run = 1; run <= runs; run++)); do
     echo "pair $run of $runs" >&2
     # Every other pair the other way round: the second of a pair finds a warmer machine.
