@@ -356,3 +356,18 @@ fn wrong_overrides_are_shown_as_typed() {
     let error = Case::parse("case.toml", RINGS, &force("tl-nested")).expect_err("wrong").to_string();
     assert!(error.contains("--set material.rubber.model=neo-hookean"), "{error}");
 }
+
+#[test]
+fn turns_are_counted_of_positions_about_an_axis_that_is_there() {
+    let with = |axis: &str| {
+        format!(
+            "{RINGS}\n[[measure]]\nname = \"turns\"\nkind = \"most-turns\"\nprobe = \"front\"\naxis = \"{axis}\"\n"
+        )
+    };
+    let message = |text: &str| parse(text).expect_err("wrong").to_string();
+    assert!(message(&with("z")).contains("turns are counted of a probe that records positions"));
+    let position = |text: String| text.replace("quantity = \"velocity\"", "quantity = \"position\"");
+    assert!(parse(&position(with("z"))).is_ok());
+    // In the plane there is one axis to go around.
+    assert!(message(&position(with("x"))).contains("unknown axis `x`, expected one of `z`"));
+}

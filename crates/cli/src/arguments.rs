@@ -1,7 +1,8 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use taut::simulation::Numbers;
 
 /// Meshless solver for solids that stretch, twist, hit and bounce.
 #[derive(Debug, Parser)]
@@ -18,9 +19,11 @@ pub enum Command {
     /// List the built-in cases and benchmarks
     List,
     /// Tell everything that can be known without running: particles, memory, time step, run time, warnings
-    Check(CaseOptions),
+    Check(CheckOptions),
     /// Run published benchmarks and hold what comes out against the papers
     Validate(ValidateOptions),
+    /// Measure how fast this machine runs every formulation: see docs/performance.md
+    Bench(BenchOptions),
     /// Rebuild pictures and report of a run (later)
     Report {
         /// Result directory
@@ -42,6 +45,32 @@ pub struct CaseOptions {
     pub formulation: Option<String>,
 }
 
+/// Numbers that sums over neighbours are made of; what is integrated in time is double always.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Precision {
+    Double,
+    Single,
+}
+
+impl From<Precision> for Numbers {
+    fn from(precision: Precision) -> Self {
+        match precision {
+            Precision::Double => Self::Double,
+            Precision::Single => Self::Single,
+        }
+    }
+}
+
+/// What to check.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    #[command(flatten)]
+    pub case: CaseOptions,
+    /// Numbers in the sums over neighbours; what is integrated in time is double always
+    #[arg(long, default_value = "double")]
+    pub precision: Precision,
+}
+
 /// What to run, and how.
 #[derive(Debug, Args)]
 pub struct RunOptions {
@@ -56,9 +85,9 @@ pub struct RunOptions {
     /// No progress, no messages
     #[arg(long, short)]
     pub quiet: bool,
-    /// Precision of the arithmetic (later)
-    #[arg(long, value_name = "double|single")]
-    pub precision: Option<String>,
+    /// Numbers in the sums over neighbours; what is integrated in time is double always
+    #[arg(long, default_value = "double")]
+    pub precision: Precision,
     /// Go on from the last checkpoint (later)
     #[arg(long)]
     pub resume: bool,
@@ -82,4 +111,30 @@ pub struct ValidateOptions {
     /// Threads [default: as many as the particles can use]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Numbers in the sums over neighbours; what is integrated in time is double always
+    #[arg(long, default_value = "double")]
+    pub precision: Precision,
+}
+
+/// What to measure, and what to do with it.
+#[derive(Debug, Args)]
+pub struct BenchOptions {
+    /// Only bodies whose name contains all of these words, for instance `tl- 3d double` [default: all, four minutes]
+    #[arg(value_name = "WORD")]
+    pub filter: Vec<String>,
+    /// Smaller bodies, and a sixth of the time for each
+    #[arg(long)]
+    pub quick: bool,
+    /// Numbers of threads [default: 1 and all]
+    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Vec<u16>,
+    /// Write everything as JSON; the file must not exist
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Print the ratio of every row to the same row of an earlier JSON file
+    #[arg(long, value_name = "FILE")]
+    pub compare: Option<PathBuf>,
+    /// Tables in Markdown
+    #[arg(long)]
+    pub markdown: bool,
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 pub const CASES: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../cases/tl-plate.toml")),
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
+    ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
 ];
@@ -18,7 +19,6 @@ const LATER: &[&str] = &[
     "tl-punch",
     "tl-pull-2d",
     "tl-pull-3d",
-    "tl-twisting-column",
     "tl-stent",
     "ul-plate-3d",
     "ul-hollow-balls",

@@ -1,15 +1,15 @@
 //! `taut check`.
 
 use crate::Failure;
-use crate::arguments::CaseOptions;
+use crate::arguments::CheckOptions;
 use crate::builtin::{colour, read};
 use crate::say;
 use case::run::{Estimate, RunError, estimate};
 
 /// Prints what a run would be.
-pub fn check(options: &CaseOptions) -> Result<(), Failure> {
-    let case = read(options)?;
-    let e = estimate(&case).map_err(|error| match error {
+pub fn check(options: &CheckOptions) -> Result<(), Failure> {
+    let case = read(&options.case)?;
+    let e = estimate(&case, options.precision.into()).map_err(|error| match error {
         RunError::Case(error) => Failure::Input(error.render(colour())),
         other => Failure::Run(other.to_string()),
     })?;

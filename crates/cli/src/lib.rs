@@ -6,9 +6,11 @@
 mod say;
 
 mod arguments;
+mod bench;
 mod builtin;
 mod check;
 mod list;
+pub mod memory;
 mod pictures;
 mod progress;
 mod run;
@@ -47,6 +49,7 @@ where
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
         Command::Validate(options) => validate::validate(&options),
+        Command::Bench(options) => bench::bench(&options),
         Command::Report { .. } => Err(Failure::Input(
             "`taut report` comes in a later version; `taut run` already draws the pictures.".into(),
         )),

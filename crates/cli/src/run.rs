@@ -16,7 +16,11 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
     refuse_later(options)?;
     let case = read(&options.case)?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&case.name));
-    let settings = Settings { out: out.clone(), threads: options.threads.map(usize::from) };
+    let settings = Settings {
+        out: out.clone(),
+        threads: options.threads.map(usize::from),
+        numbers: options.precision.into(),
+    };
     let mut watcher = Watcher::new(options.quiet);
     if !options.quiet {
         say::warnings(&case);
@@ -40,15 +44,6 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
 }
 
 fn refuse_later(options: &RunOptions) -> Result<(), Failure> {
-    match options.precision.as_deref() {
-        None | Some("double") => {}
-        Some("single") => {
-            return Err(Failure::Input("single precision comes in a later version.".to_string()));
-        }
-        Some(other) => {
-            return Err(Failure::Input(format!("`--precision {other}`: expected double or single.")));
-        }
-    }
     if options.resume {
         return Err(Failure::Input("`--resume` comes in a later version.".to_string()));
     }

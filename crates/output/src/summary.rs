@@ -210,6 +210,8 @@ pub struct Summary {
     pub particle_steps_per_second: f64,
     /// Threads used.
     pub threads: u32,
+    /// `double` or `single`: what sums over neighbours were computed with.
+    pub precision: String,
     /// Where the energy went.
     pub energy: Energy,
     /// What happened to the momentum.

@@ -11,6 +11,7 @@ pub mod diagnostics;
 pub mod formulation;
 pub mod integrator;
 pub mod kernel;
+pub mod machine;
 pub mod material;
 pub mod neighbours;
 pub mod particles;

@@ -9,7 +9,7 @@ mod solvers;
 pub use observe::{Observed, ProbePoint, Watch};
 
 use crate::{Case, CaseError};
-use taut::simulation::{Drive, InSpace, Point, Solver};
+use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -23,6 +23,8 @@ pub struct Built {
     pub watch: Box<dyn Watch>,
     /// Index of the body of every particle, in the order of ids.
     pub body: Vec<u32>,
+    /// What the solvers compute with.
+    pub numbers: Numbers,
     /// What is doubtful about the particles.
     pub warnings: Vec<String>,
 }
@@ -35,28 +37,29 @@ impl Built {
     }
 }
 
-/// Builds the particles, formulations, drives and probes of a case.
+/// Builds the particles, formulations, drives and probes of a case, to be computed with these numbers.
 ///
 /// # Errors
 /// What shows only now: a body without particles, a boundary that holds nobody, a probe outside of its body.
-pub fn build(case: &Case) -> Result<Built, CaseError> {
+pub fn build(case: &Case, numbers: Numbers) -> Result<Built, CaseError> {
     match case.dimension {
-        2 => in_dimension::<2>(case),
-        _ => in_dimension::<3>(case),
+        2 => in_dimension::<2>(case, numbers),
+        _ => in_dimension::<3>(case, numbers),
     }
 }
 
-fn in_dimension<const D: usize>(case: &Case) -> Result<Built, CaseError>
+fn in_dimension<const D: usize>(case: &Case, numbers: Numbers) -> Result<Built, CaseError>
 where
     Point<D>: InSpace,
 {
     let mut groups = bodies::groups::<D>(case)?;
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
-    let solvers = groups.iter().map(|group| solvers::solver(case, group)).collect::<Result<Vec<_>, _>>()?;
+    let solver = |group| solvers::solver(case, group, numbers);
+    let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
     let drives = driven.drives(&solvers);
     let probes = observe::probes(case, &groups, &solvers)?;
     let (watch, body) = observe::disorder(case, &groups)?;
     let warnings = bodies::warnings(case, &groups);
-    Ok(Built { solvers, drives, probes, watch, body, warnings })
+    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings })
 }

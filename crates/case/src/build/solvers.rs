@@ -6,7 +6,9 @@ use taut::formulation::updated::Hypoelastic;
 use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
-use taut::simulation::{InSpace, Law, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies};
+use taut::simulation::{
+    InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+};
 
 /// The plane as the material sees it.
 pub fn plane(case: &Case) -> material::Plane {
@@ -43,7 +45,11 @@ fn all_moduli(case: &Case) -> Result<Vec<Moduli>, CaseError> {
 }
 
 /// The solver of a group.
-pub fn solver<const D: usize>(case: &Case, group: &Group<'_, D>) -> Result<Box<dyn Solver>, CaseError>
+pub fn solver<const D: usize>(
+    case: &Case,
+    group: &Group<'_, D>,
+    numbers: Numbers,
+) -> Result<Box<dyn Solver>, CaseError>
 where
     Point<D>: InSpace,
 {
@@ -65,7 +71,7 @@ where
                 _ => TotalForm::HourglassFree,
             };
             let law = law(case, body, all[index]);
-            total_body(points, (form, law), options).ok_or_else(|| {
+            total_body(points, (form, law), options, numbers).ok_or_else(|| {
                 let message = format!(
                     "the material `{}` does not go with {}",
                     body.material,
@@ -94,7 +100,7 @@ where
             };
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
-            Ok(updated_bodies(points, (form, stress, &moduli), options))
+            Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
     }
 }

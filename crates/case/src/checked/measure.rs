@@ -2,7 +2,7 @@
 
 use super::choices::Axis;
 use super::names::{find, part_name};
-use super::probe::Probe;
+use super::probe::{Probe, Quantity};
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::units::Dimension;
@@ -28,6 +28,13 @@ pub enum MeasureKind {
         axis: Axis,
         /// What about it.
         feature: Feature,
+    },
+    /// Most turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
+    MostTurns {
+        /// Number of the probe, which records positions.
+        probe: usize,
+        /// The axis.
+        axis: Axis,
     },
     /// Kinetic energy at the end over that at the start.
     KineticRatio,
@@ -83,6 +90,7 @@ const KINDS: &[(&str, &[&str])] = &[
     ("minimum", CURVE),
     ("turning-points", &["name", "kind", "probe", "component", "extremum", "prominence", "index"]),
     ("value-at", &["name", "kind", "probe", "component", "time"]),
+    ("most-turns", &["name", "kind", "probe", "axis"]),
     ("kinetic-ratio", &["name", "kind"]),
     ("contact-start", &["name", "kind"]),
     ("rebound-speed", &["name", "kind", "body"]),
@@ -116,6 +124,7 @@ impl MeasureReader<'_> {
     fn kind(&self, kind: &str, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
         match kind {
             "kinetic-ratio" => Ok(MeasureKind::KineticRatio),
+            "most-turns" => self.most_turns(section),
             "contact-start" => Ok(MeasureKind::ContactStart),
             "rebound-speed" => {
                 Ok(MeasureKind::ReboundSpeed { body: find(section.need("body")?, "body", self.bodies)? })
@@ -140,6 +149,18 @@ impl MeasureReader<'_> {
             },
             _ => self.turning_point(probe, section)?,
         })
+    }
+
+    fn most_turns(&self, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
+        let node = section.need("probe")?;
+        let probe = find(node, "probe", self.probes)?;
+        if self.checked.get(probe).is_some_and(|p| p.quantity != Quantity::Position) {
+            let message = "turns are counted of a probe that records positions";
+            return Err(Diagnostic::at(node.place, message).help("give the probe quantity = \"position\""));
+        }
+        // In the plane there is one axis to go around.
+        let axes = &Axis::NAMES[if self.scope.dimension == 2 { 2 } else { 0 }..];
+        Ok(MeasureKind::MostTurns { probe, axis: choice(section.need("axis")?, "axis", axes)? })
     }
 
     fn turning_point(&self, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {

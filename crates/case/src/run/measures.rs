@@ -4,6 +4,7 @@ use super::curves::{Curve, Point};
 use crate::{Case, Extremum, Feature, MeasureKind, Quantity};
 use output::summary::Measured;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use taut::simulation::{Snapshot, Totals};
 
 /// Samples of a probe.
@@ -45,6 +46,12 @@ impl Evidence<'_> {
                 let unit = if case.probes[*probe].quantity == Quantity::Velocity { "m/s" } else { "m" };
                 feature_of(&curve, feature, unit)
             }
+            MeasureKind::MostTurns { probe, axis } => {
+                let Series { times, values } = &self.series[*probe];
+                let (first, second) = ((axis.index() + 1) % 3, (axis.index() + 2) % 3);
+                let turns = turns(&values[first], &values[second]);
+                feature_of(&Curve { times, values: &turns }, &Feature::Maximum, "1")
+            }
             MeasureKind::KineticRatio => Measured::value(self.end.kinetic / self.start.kinetic, "1"),
             MeasureKind::ContactStart => match self.contact {
                 Some(time) => Measured::value(time, "s"),
@@ -63,6 +70,18 @@ impl Evidence<'_> {
         });
         momentum.iter().map(|p| p * p).sum::<f64>().sqrt() / mass
     }
+}
+
+/// Turns of (x, y) about the origin since the first sample; no step is taken for more than half a turn.
+fn turns(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let angles: Vec<f64> = x.iter().zip(y).map(|(x, y)| y.atan2(*x) / TAU).collect();
+    let step = |pair: &[f64]| {
+        let step = pair[1] - pair[0];
+        sum += step - step.round();
+        sum
+    };
+    std::iter::once(0.0).chain(angles.windows(2).map(step)).take(angles.len()).collect()
 }
 
 fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
@@ -89,5 +108,24 @@ fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
             let value = curve.at(time).map(|value| Point { time, value });
             point(value, &format!("t = {time} s"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_unwrapped_and_signed() {
+        // Two turns and a quarter forward, then three back, in steps of a tenth of a turn and less.
+        let angle =
+            |i: i32| TAU * if i <= 30 { 0.075 * f64::from(i) } else { 2.25 - 0.1 * f64::from(i - 30) };
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            (0..=60).map(|i| (2.0 * angle(i).cos(), 2.0 * angle(i).sin())).unzip();
+        let turns = turns(&x, &y);
+        let near = |i: usize, wanted: f64| assert!((turns[i] - wanted).abs() < 1e-12, "{i}: {}", turns[i]);
+        [(0, 0.0), (30, 2.25), (60, -0.75)].iter().for_each(|&(i, wanted)| near(i, wanted));
+        assert_eq!(turns.len(), 61);
+        assert!(super::turns(&[], &[]).is_empty());
     }
 }

@@ -17,7 +17,7 @@ use output::{Frame, ResultDir, Summary};
 use record::Recorder;
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::simulation::Simulation;
+use taut::simulation::{Numbers, Simulation};
 
 /// How to run a case.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct Settings {
     pub out: PathBuf,
     /// Threads; `None` for as many as the particles can use.
     pub threads: Option<usize>,
+    /// What sums over neighbours are computed with.
+    pub numbers: Numbers,
 }
 
 /// Where a run stands.
@@ -66,7 +68,7 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// A case that cannot be built, a result directory that is taken, a write that fails, a run that diverges; the last leaves its
 /// frames, probes and summary.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
-    let built = build(case)?;
+    let built = build(case, settings.numbers)?;
     let available = std::thread::available_parallelism().map_or(1, usize::from);
     let useful = (built.particles() / PARTICLES_PER_THREAD).max(1);
     let threads = settings.threads.unwrap_or_else(|| available.min(useful)).max(1);

@@ -13,7 +13,7 @@ use output::{Manifest, ProbeTable, ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
 use taut::run::InstructionSet;
-use taut::simulation::{Drive, Simulation, Snapshot, Solver, Totals};
+use taut::simulation::{Drive, Numbers, Simulation, Snapshot, Solver, Totals};
 
 /// The books of a run.
 pub struct Recorder<'a> {
@@ -30,6 +30,7 @@ pub struct Recorder<'a> {
     deformation: Vec<[f64; 9]>,
     mass: Vec<f64>,
     particles: u64,
+    numbers: Numbers,
     start: Totals,
     contact: Contact,
     warnings: Vec<String>,
@@ -73,7 +74,7 @@ impl<'a> Recorder<'a> {
     pub fn create(case: &'a Case, built: Built, results: &'a ResultDir) -> Result<Parts<'a>, RunError> {
         let threads = rayon::current_num_threads();
         let machine = Machine::here(InstructionSet::best().name());
-        Manifest::new(case.case_text_as_run(), machine, threads, "double").write(results)?;
+        Manifest::new(case.case_text_as_run(), machine, threads, built.numbers.name()).write(results)?;
         let mut tables = Vec::new();
         for probe in &case.probes {
             let unit = if probe.quantity == crate::Quantity::Velocity { "m/s" } else { "m" };
@@ -96,6 +97,7 @@ impl<'a> Recorder<'a> {
             deformation: Vec::new(),
             mass: Vec::new(),
             particles: built.body.len() as u64,
+            numbers: built.numbers,
             start: Totals::default(),
             contact: Contact { support, ..Contact::default() },
             warnings: built.warnings,
@@ -228,6 +230,7 @@ impl<'a> Recorder<'a> {
             dimension: self.case.dimension as u32,
             particles: self.particles,
             threads: rayon::current_num_threads() as u32,
+            precision: self.numbers.name().to_string(),
             warnings: self.warnings.clone(),
             ..Summary::default()
         };
@@ -269,6 +272,7 @@ impl<'a> Recorder<'a> {
             wall_seconds: wall,
             particle_steps_per_second: n * steps as f64 / wall.max(1e-9),
             threads: rayon::current_num_threads() as u32,
+            precision: self.numbers.name().to_string(),
             energy: Energy { history: std::mem::take(&mut self.energies), ..energy(&self.start, &end) },
             momentum: Momentum {
                 linear: Balance::new(self.start.momentum, end.momentum),

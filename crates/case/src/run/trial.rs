@@ -4,7 +4,7 @@ use super::error::RunError;
 use crate::Case;
 use crate::build::build;
 use std::time::Instant;
-use taut::simulation::Simulation;
+use taut::simulation::{Numbers, Simulation};
 
 /// Steps tried.
 const TRIAL: u32 = 20;
@@ -32,8 +32,8 @@ pub struct Estimate {
 ///
 /// # Errors
 /// As [`run`](super::run), but nothing is written.
-pub fn estimate(case: &Case) -> Result<Estimate, RunError> {
-    let built = build(case)?;
+pub fn estimate(case: &Case, numbers: Numbers) -> Result<Estimate, RunError> {
+    let built = build(case, numbers)?;
     let (particles, warnings) = (built.particles(), built.warnings);
     let stopped = |diverged| RunError::Diverged { diverged: Box::new(diverged), results: "nowhere".into() };
     let mut simulation = Simulation::start(built.solvers, built.drives).map_err(stopped)?;

@@ -23,6 +23,7 @@ use std::path::Path;
 const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../../validation/tl-plate/accept.toml")),
     ("tl-bending-column", include_str!("../../../../validation/tl-bending-column/accept.toml")),
+    ("tl-twisting-column", include_str!("../../../../validation/tl-twisting-column/accept.toml")),
     ("ul-plate-2d", include_str!("../../../../validation/ul-plate-2d/accept.toml")),
     ("ul-rings", include_str!("../../../../validation/ul-rings/accept.toml")),
 ];
@@ -75,7 +76,7 @@ fn benchmark(name: &str, accept: &Accept, options: &ValidateOptions) -> Result<V
     say(options, name);
     for index in needed {
         let run = &accept.runs[index];
-        let evidence = perform(&accept.case, run, &out.join(&run.name), options.threads)?;
+        let evidence = perform(&accept.case, run, &out.join(&run.name), options)?;
         say(options, &told(run, &evidence));
         done.insert(index, evidence);
     }
@@ -83,11 +84,15 @@ fn benchmark(name: &str, accept: &Accept, options: &ValidateOptions) -> Result<V
 }
 
 /// Makes one run. One that diverges has left a summary, and that is evidence too.
-fn perform(case: &str, run: &Run, out: &Path, threads: Option<u16>) -> Result<Evidence, Failure> {
+fn perform(case: &str, run: &Run, out: &Path, how: &ValidateOptions) -> Result<Evidence, Failure> {
     let options =
         CaseOptions { case: case.to_string(), set: run.set.clone(), formulation: run.formulation.clone() };
     let case = builtin::read(&options)?;
-    let settings = Settings { out: out.to_path_buf(), threads: threads.map(usize::from) };
+    let settings = Settings {
+        out: out.to_path_buf(),
+        threads: how.threads.map(usize::from),
+        numbers: how.precision.into(),
+    };
     let unreadable = |error: OutputError| Failure::Run(format!("{error}\nhint: {}", error.hint()));
     let summary = match run_case(&case, &settings, &mut Silent) {
         Ok(summary) => summary,

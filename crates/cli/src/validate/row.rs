@@ -64,7 +64,7 @@ impl Row {
             quantity: check.quantity.clone(),
             run: run.name.clone(),
             formulation: mine.summary.formulation.clone(),
-            settings: run.set.join(", "),
+            settings: settings(run, mine),
             published: of(|e| if let Expected::Published(value) = e { Some(value) } else { None }),
             analytic: of(|e| if let Expected::Analytic(value) = e { Some(value) } else { None }),
             reference: of(|e| if let Expected::Reference(value) = e { Some(value) } else { None }),
@@ -85,6 +85,12 @@ impl Row {
     pub fn expected(&self) -> Option<f64> {
         self.published.or(self.analytic).or(self.reference)
     }
+}
+
+/// What a run was told besides its formulation; double precision goes without saying.
+fn settings(run: &Run, evidence: &Evidence) -> String {
+    let single = (evidence.summary.precision == "single").then_some("precision=single");
+    run.set.iter().map(String::as_str).chain(single).collect::<Vec<_>>().join(", ")
 }
 
 /// The number of a check, or why there is none.

@@ -81,7 +81,13 @@ fn summary_and_manifest_have_the_names_of_the_contract() {
     let folder = with_case(BLOCK);
     taut(folder.path(), &["run", "case.toml", "--threads", "1", "--set", "parameters.v0=5"]).with(0);
     let summary = json(&folder.path().join("out/block/summary.json"));
-    for (key, wanted) in [("case", "block"), ("formulation", "tl-hourglass-free"), ("status", "done")] {
+    let words = [
+        ("case", "block"),
+        ("formulation", "tl-hourglass-free"),
+        ("status", "done"),
+        ("precision", "double"),
+    ];
+    for (key, wanted) in words {
         assert_eq!(summary[key], wanted);
     }
     for (key, wanted) in [("dimension", 2), ("particles", 200), ("threads", 1)] {
@@ -116,6 +122,22 @@ fn assert_manifest(manifest: &Value) {
     let again = with_case(manifest["case"].as_str().expect("the case"));
     assert!(manifest["case"].as_str().is_some_and(|text| text.contains("v0 = 5")));
     taut(again.path(), &["check", "case.toml"]).with(0);
+}
+
+/// Single precision is a choice of a run: it is written down, and it computes something else, but not much else.
+#[test]
+fn single_precision_is_written_down_and_is_near_double() {
+    let folder = with_case(BLOCK);
+    let [double, single] = ["double", "single"].map(|precision| {
+        taut(folder.path(), &["run", "case.toml", "--precision", precision, "--out", precision]).with(0);
+        let results = folder.path().join(precision);
+        assert_eq!(json(&results.join("summary.json"))["precision"], precision);
+        assert_eq!(json(&results.join("manifest.json"))["precision"], precision);
+        json(&results.join("summary.json"))["measured"]["tip_max"]["value"].as_f64().expect("a number")
+    });
+    // 40 steps of sums that are rounded to 6e-8 of terms that nearly cancel; three digits are what is promised.
+    assert!(double != single && (single / double - 1.0).abs() < 1e-3, "{double:e} {single:e}");
+    taut(folder.path(), &["check", "case.toml", "--precision", "single"]).with(0);
 }
 
 #[test]

@@ -27,6 +27,7 @@ const FLOORS: &[&str] = &[
     "correction",
     "material",
     "formulation",
+    "machine",
     "integrator",
     "diagnostics",
     "simulation",

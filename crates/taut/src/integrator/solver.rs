@@ -22,6 +22,9 @@ pub trait Solver: Send {
     /// Mean number of neighbours.
     fn neighbours(&self) -> f64;
 
+    /// How often the neighbours were found.
+    fn lists(&self) -> u64;
+
     /// Makes lists and first rates.
     ///
     /// # Errors

@@ -113,6 +113,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         self.run.neighbours()
     }
 
+    fn lists(&self) -> u64 {
+        1
+    }
+
     fn start(&mut self) -> Result<(), Diverged> {
         let relist = Relist {
             positions: Quantity::ReferencePosition,

@@ -130,6 +130,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         self.run.neighbours()
     }
 
+    fn lists(&self) -> u64 {
+        self.rebuilds
+    }
+
     fn start(&mut self) -> Result<(), Diverged> {
         self.check()?;
         self.rebuild()?;

@@ -75,15 +75,37 @@ pub enum UpdatedForm {
     Nested,
 }
 
+/// The numbers that pair sums are made of. What is integrated in time is in double precision always.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Numbers {
+    /// `double`.
+    #[default]
+    Double,
+    /// `single`: sums over neighbours, and what only they read, in single precision.
+    Single,
+}
+
+impl Numbers {
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::Single => "single",
+        }
+    }
+}
+
 /// A total Lagrangian body; `None` if the formulation cannot carry the material.
 #[must_use]
 pub fn total_body(
     points: Points<'_>,
     (form, law): (TotalForm, Law),
     options: TotalOptions,
+    numbers: Numbers,
 ) -> Option<Box<dyn Solver>> {
     let h = options.kernel.h();
-    let body = TotalBody { points, moduli: law.moduli(), options };
+    let body = TotalBody { points, moduli: law.moduli(), options, numbers };
     Some(match (form, law) {
         (TotalForm::HourglassFree, Law::NeoHookean(m)) => body.with(HourglassFree::new(m, h)),
         (TotalForm::HourglassFree, Law::NeoHookeanLog(m)) => body.with(HourglassFree::new(m, h)),
@@ -98,6 +120,7 @@ struct TotalBody<'a> {
     points: Points<'a>,
     moduli: Moduli,
     options: TotalOptions,
+    numbers: Numbers,
 }
 
 impl TotalBody<'_> {
@@ -113,7 +136,11 @@ impl TotalBody<'_> {
         points: &[Point<D>],
         formulation: F,
     ) -> Box<dyn Solver> {
-        Box::new(total(points, (formulation, self.moduli), self.options, Cpu::new))
+        let formed = (formulation, self.moduli);
+        match self.numbers {
+            Numbers::Double => Box::new(total(points, formed, self.options, Cpu::new)),
+            Numbers::Single => Box::new(total(points, formed, self.options, Cpu::single)),
+        }
     }
 }
 
@@ -122,10 +149,11 @@ pub fn updated_bodies(
     points: Points<'_>,
     (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
     options: UpdatedOptions,
+    numbers: Numbers,
 ) -> Box<dyn Solver> {
     match points {
-        Points::Two(points) => updated_of::<2>(points, (form, stress, moduli), options),
-        Points::Three(points) => updated_of::<3>(points, (form, stress, moduli), options),
+        Points::Two(points) => updated_of::<2>(points, (form, stress, moduli), options, numbers),
+        Points::Three(points) => updated_of::<3>(points, (form, stress, moduli), options, numbers),
     }
 }
 
@@ -133,8 +161,9 @@ fn updated_of<const D: usize>(
     points: &[Point<D>],
     (form, stress, moduli): (UpdatedForm, Hypoelastic, &dyn Fn(u32) -> Moduli),
     options: UpdatedOptions,
+    numbers: Numbers,
 ) -> Box<dyn Solver> {
-    let body = UpdatedBodies { points, moduli, options };
+    let body = UpdatedBodies { points, moduli, options, numbers };
     match form {
         UpdatedForm::NonHourglass => {
             let form = NonHourglass::new(stress, D);
@@ -150,10 +179,15 @@ struct UpdatedBodies<'a, const D: usize> {
     points: &'a [Point<D>],
     moduli: &'a dyn Fn(u32) -> Moduli,
     options: UpdatedOptions,
+    numbers: Numbers,
 }
 
 impl<const D: usize> UpdatedBodies<'_, D> {
     fn with<F: Formulation<D> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
-        Box::new(updated(self.points, (formulation, self.moduli), self.options, Cpu::new))
+        let formed = (formulation, self.moduli);
+        match self.numbers {
+            Numbers::Double => Box::new(updated(self.points, formed, self.options, Cpu::new)),
+            Numbers::Single => Box::new(updated(self.points, formed, self.options, Cpu::single)),
+        }
     }
 }
