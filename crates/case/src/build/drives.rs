@@ -7,7 +7,7 @@ use taut::field::Quantity;
 use taut::pass::Now;
 use taut::simulation::{Drive, Point, Solver};
 
-/// A particle before its solver has put it in order: group, index in the group, reference position.
+/// A particle: its group, which is its solver, its index in the group, which is its id there, and its reference position.
 type Member = (usize, usize, [f64; 3]);
 
 /// Drives that wait for the solvers.
@@ -116,13 +116,10 @@ fn total<'a>(fields: impl Iterator<Item = &'a VectorField>, x: [f64; 3], t: f64)
 }
 
 impl Driven {
-    /// The drives, now that every particle has its place.
-    pub fn drives(self, solvers: &[Box<dyn Solver>]) -> Vec<Box<dyn Drive>> {
-        let places: Vec<Vec<usize>> = solvers.iter().map(|s| places(s.as_ref())).collect();
-        let find = |(g, i, x): Member| (g, places[g][i], x);
+    /// The drives.
+    pub fn drives(self) -> Vec<Box<dyn Drive>> {
         let mut drives: Vec<Box<dyn Drive>> = Vec::new();
         for (constraint, members) in self.motions {
-            let members = members.into_iter().map(find).collect();
             match constraint {
                 Constraint::Velocity(fields) => drives.push(Box::new(Moving { fields, members })),
                 Constraint::Displacement(fields) => drives.push(Box::new(Placed { fields, members })),
@@ -130,26 +127,16 @@ impl Driven {
             }
         }
         if !self.forces.is_empty() {
-            let members = self.forces.into_iter().map(|(member, fields)| (find(member), fields)).collect();
-            drives.push(Box::new(Pulling { members }));
+            drives.push(Box::new(Pulling { members: self.forces }));
         }
         drives
     }
 }
 
-/// Where each id is stored.
-pub fn places(solver: &dyn Solver) -> Vec<usize> {
-    let mut places = vec![0; solver.len()];
-    for (place, &id) in solver.ids().iter().enumerate() {
-        places[id as usize] = place;
-    }
-    places
-}
-
 /// Particles of prescribed velocity.
 struct Moving {
     fields: [Option<FieldExpression>; 3],
-    members: Vec<(usize, usize, [f64; 3])>,
+    members: Vec<Member>,
 }
 
 impl Drive for Moving {
@@ -161,7 +148,7 @@ impl Drive for Moving {
 /// Particles of prescribed displacement: the velocity that takes them there within the step.
 struct Placed {
     fields: [Option<FieldExpression>; 3],
-    members: Vec<(usize, usize, [f64; 3])>,
+    members: Vec<Member>,
 }
 
 impl Drive for Placed {
@@ -174,11 +161,12 @@ impl Drive for Placed {
 
 fn prescribed(
     fields: &[Option<FieldExpression>; 3],
-    members: &[(usize, usize, [f64; 3])],
+    members: &[Member],
     solvers: &mut [Box<dyn Solver>],
     velocity: impl Fn(&FieldExpression, [f64; 3]) -> f64,
 ) {
-    for &(g, place, x) in members {
+    for &(g, id, x) in members {
+        let place = solvers[g].stored(id);
         let mut v = solvers[g].read(Quantity::PrescribedVelocity, place);
         for (v, field) in v.iter_mut().zip(fields) {
             if let Some(field) = field {
@@ -196,9 +184,10 @@ struct Pulling {
 
 impl Drive for Pulling {
     fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) {
-        for ((g, place, x), fields) in &self.members {
+        for ((g, id, x), fields) in &self.members {
             let force = total(fields.iter(), *x, now.t + 0.5 * now.dt);
-            solvers[*g].write(Quantity::BodyForce, *place, force);
+            let place = solvers[*g].stored(*id);
+            solvers[*g].write(Quantity::BodyForce, place, force);
         }
     }
 }

@@ -57,8 +57,8 @@ where
     let driven = drives::prescribe(case, &mut groups)?;
     let solver = |group| solvers::solver(case, group, numbers);
     let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
-    let drives = driven.drives(&solvers);
-    let probes = observe::probes(case, &groups, &solvers)?;
+    let drives = driven.drives();
+    let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, &groups)?;
     let warnings = bodies::warnings(case, &groups);
     Ok(Built { solvers, drives, probes, watch, body, numbers, warnings })

@@ -1,7 +1,6 @@
 //! Probes and disorder.
 
 use super::bodies::{Group, checked, padded, vector};
-use super::drives::places;
 use crate::{Case, CaseError, Quantity, Spot};
 use geometry::Shape;
 use taut::diagnostics::MaterialPoint;
@@ -10,7 +9,7 @@ use taut::field;
 use taut::neighbours::{Adjacency, Search};
 use taut::simulation::{Point, Snapshot, Solver};
 
-/// Where a probe reads: weights of stored particles of one solver.
+/// Where a probe reads: weights of particles of one solver, by id.
 pub struct ProbePoint {
     solver: usize,
     point: MaterialPoint,
@@ -23,7 +22,7 @@ impl ProbePoint {
     #[must_use]
     pub fn value(&self, solvers: &[Box<dyn Solver>]) -> [f64; 3] {
         let solver = &solvers[self.solver];
-        let mean = |field| self.point.value(|place| solver.read(field, place));
+        let mean = |field| self.point.value(|id| solver.read(field, solver.stored(id)));
         match self.quantity {
             Quantity::Velocity => mean(field::Quantity::Velocity),
             Quantity::Displacement => mean(field::Quantity::Displacement),
@@ -36,12 +35,7 @@ impl ProbePoint {
 }
 
 /// The probes of a case.
-pub fn probes<const D: usize>(
-    case: &Case,
-    groups: &[Group<'_, D>],
-    solvers: &[Box<dyn Solver>],
-) -> Result<Vec<ProbePoint>, CaseError> {
-    let places: Vec<Vec<usize>> = solvers.iter().map(|s| places(s.as_ref())).collect();
+pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Vec<ProbePoint>, CaseError> {
     let probe = |probe: &crate::Probe| {
         let spot = match &probe.spot {
             Spot::Point(_) => None,
@@ -49,7 +43,7 @@ pub fn probes<const D: usize>(
         };
         let found = groups.iter().enumerate().find_map(|(g, group)| {
             let mine = group.points.iter().enumerate().filter(|(_, p)| p.body as usize == probe.body);
-            let mine: Vec<_> = mine.map(|(i, p)| (places[g][i], p)).collect();
+            let mine: Vec<_> = mine.collect();
             let (point, at) = match (&probe.spot, &spot) {
                 (Spot::Region(_), Some(region)) => mean(&mine, region)?,
                 (Spot::Region(_), None) => return None,

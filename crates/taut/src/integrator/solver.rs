@@ -19,6 +19,8 @@ pub trait Solver: Send {
     }
     /// The id of the particle stored at each place.
     fn ids(&self) -> &[u32];
+    /// The place where the particle of an id is stored; it may change from step to step.
+    fn stored(&self, id: usize) -> usize;
     /// Mean number of neighbours.
     fn neighbours(&self) -> f64;
 

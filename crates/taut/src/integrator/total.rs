@@ -109,6 +109,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         self.run.particles().ids()
     }
 
+    fn stored(&self, id: usize) -> usize {
+        self.run.particles().stored(id)
+    }
+
     fn neighbours(&self) -> f64 {
         self.run.neighbours()
     }

@@ -6,6 +6,7 @@ use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
+use crate::neighbours::storage_order;
 use crate::pass::Now;
 use crate::run::{Among, Relist, Run};
 
@@ -48,12 +49,25 @@ pub struct Updated<const D: usize, F, R> {
     /// Time left until the configuration is made anew.
     left: f64,
     rebuilds: u64,
+    order: Vec<u32>,
 }
+
+/// After so many lists particles are put in order again. An elastic body keeps its order; bodies that slide along each other lose it
+/// slowly, and a sort costs as much as two lists.
+const LISTS_PER_SORT: u64 = 100;
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
     /// Bodies whose particles carry the fields of `F` and are set up.
     pub fn new(formulation: F, run: R, options: UpdatedOptions) -> Self {
-        Self { formulation, run, options, limits: Limits::default(), left: 0.0, rebuilds: 0 }
+        Self {
+            formulation,
+            run,
+            options,
+            limits: Limits::default(),
+            left: 0.0,
+            rebuilds: 0,
+            order: Vec::new(),
+        }
     }
 
     /// The run, to look at.
@@ -71,7 +85,19 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         self.rebuilds
     }
 
+    /// Puts the particles in the order in which they are best stored now. Positions that are not numbers are found by the list.
+    fn sort(&mut self) {
+        let p = self.run.particles();
+        let spacing = p.column(Quantity::Volume, 0).first().map_or(0.0, |v| v.powf(1.0 / D as f64));
+        if storage_order(p.vector(Quantity::Position), spacing, &mut self.order).is_ok() {
+            self.run.particles_mut().reorder(&self.order);
+        }
+    }
+
     fn rebuild(&mut self) -> Result<(), Diverged> {
+        if self.rebuilds % LISTS_PER_SORT == LISTS_PER_SORT - 1 {
+            self.sort();
+        }
         refresh_volumes(&mut self.run);
         let o = &self.options;
         let relist = Relist { positions: Quantity::Position, kernel: o.kernel, among: Among::All };
@@ -124,6 +150,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn ids(&self) -> &[u32] {
         self.run.particles().ids()
+    }
+
+    fn stored(&self, id: usize) -> usize {
+        self.run.particles().stored(id)
     }
 
     fn neighbours(&self) -> f64 {

@@ -70,8 +70,8 @@ impl<const D: usize> Run<D> for Tally<D> {
         Ok(())
     }
 
-    fn adjacency(&self) -> &Adjacency {
-        &self.adjacency
+    fn neighbours(&self) -> f64 {
+        self.adjacency.mean()
     }
 
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {

@@ -5,6 +5,8 @@ mod real;
 mod tensor;
 mod vector;
 
+#[cfg(target_arch = "aarch64")]
+pub use lanes::neon;
 pub use lanes::{Element, Lanes, MOST_LANES, plain, prefetch};
 #[cfg(target_arch = "x86_64")]
 pub use lanes::{avx2, avx512};

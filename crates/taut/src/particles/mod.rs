@@ -23,6 +23,8 @@ pub(crate) const fn stride(len: usize) -> usize {
 pub struct Particles<const D: usize> {
     len: usize,
     ids: Vec<u32>,
+    /// Where each id is stored.
+    stored: Vec<u32>,
     first: Vec<Option<usize>>,
     /// How many columns.
     columns: usize,
@@ -38,6 +40,7 @@ impl<const D: usize> Particles<D> {
         Self {
             len,
             ids: (0..len as u32).collect(),
+            stored: (0..len as u32).collect(),
             first: vec![None; Quantity::ALL.len()],
             columns: 0,
             data: Vec::new(),
@@ -61,6 +64,12 @@ impl<const D: usize> Particles<D> {
     #[must_use]
     pub fn ids(&self) -> &[u32] {
         &self.ids
+    }
+
+    /// The place where the particle of an id is stored. Places change when particles are reordered; ids do not.
+    #[must_use]
+    pub fn stored(&self, id: usize) -> usize {
+        self.stored[id] as usize
     }
 
     /// Adds a field, all zero; a field that is there already stays as it is.
@@ -173,6 +182,9 @@ impl<const D: usize> Particles<D> {
         }
         self.scratch = scratch;
         self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
+        for (place, &id) in self.ids.iter().enumerate() {
+            self.stored[id as usize] = place as u32;
+        }
     }
 }
 
@@ -189,6 +201,7 @@ mod tests {
         }
         p.reorder(&[2, 0, 3, 1]);
         assert_eq!(p.ids(), [2, 0, 3, 1]);
+        assert_eq!([0, 1, 2, 3].map(|id| p.stored(id)), [1, 3, 0, 2]);
         assert_eq!(p.column(Quantity::Velocity, 1), [-2.0, 0.0, -3.0, -1.0]);
         p.reorder(&[1, 3, 0, 2]);
         assert_eq!(p.ids(), [0, 1, 2, 3]);

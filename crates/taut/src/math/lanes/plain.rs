@@ -1,5 +1,4 @@
-//! Lanes without intrinsics: numbers in an array, left to the compiler. Runs on every machine (on arm64 the compiler turns it into
-//! NEON, which is part of the base instruction set there).
+//! Lanes without intrinsics: numbers in an array, left to the compiler. Runs on every machine.
 
 use super::Lanes;
 use crate::math::Real;

@@ -106,6 +106,15 @@ fn plain_lanes() {
     exercise_pairs::<plain::PlainSingle8>();
 }
 
+#[cfg(target_arch = "aarch64")]
+#[test]
+fn neon_lanes() {
+    exercise::<neon::F64x4>(DOUBLE);
+    exercise::<neon::F32x8>(SINGLE);
+    exercise_pairs::<neon::F64x4>();
+    exercise_pairs::<neon::F32x8>();
+}
+
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn avx2_lanes() {

@@ -1,6 +1,8 @@
 //! Which lanes a run uses: for each precision and instruction set, one type for pair sums and one for updates.
 
 use super::lines::Plain;
+#[cfg(target_arch = "aarch64")]
+use crate::math::neon;
 use crate::math::plain::{Plain4, PlainSingle8};
 use crate::math::{Element, Lanes};
 #[cfg(target_arch = "x86_64")]
@@ -24,6 +26,9 @@ pub trait Precision: Send + Sync + std::fmt::Debug + 'static {
     type E: Element + Plain;
     /// Lanes without intrinsics.
     type Plain: Kit<Pair: Lanes<E = Self::E>>;
+    /// Lanes of NEON.
+    #[cfg(target_arch = "aarch64")]
+    type Neon: Kit<Pair: Lanes<E = Self::E>>;
     /// Lanes of AVX2.
     #[cfg(target_arch = "x86_64")]
     type Avx2: Kit<Pair: Lanes<E = Self::E>>;
@@ -60,6 +65,10 @@ macro_rules! kits {
 kits! {
     PlainDouble: Plain4, Plain4, Plain4, false;
     PlainSingle: PlainSingle8, PlainSingle8, Plain4, true;
+    #[cfg(target_arch = "aarch64")]
+    NeonDouble: neon::F64x4, neon::F64x4, neon::F64x4, false;
+    #[cfg(target_arch = "aarch64")]
+    NeonSingle: neon::F32x8, neon::F32x8, neon::F64x4, true;
     #[cfg(target_arch = "x86_64")]
     Avx2Double: avx2::F64x4, avx2::F64x4, avx2::F64x4, false;
     #[cfg(target_arch = "x86_64")]
@@ -73,6 +82,8 @@ kits! {
 impl Precision for Double {
     type E = f64;
     type Plain = PlainDouble;
+    #[cfg(target_arch = "aarch64")]
+    type Neon = NeonDouble;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = Avx2Double;
     #[cfg(target_arch = "x86_64")]
@@ -83,6 +94,8 @@ impl Precision for Double {
 impl Precision for Single {
     type E = f32;
     type Plain = PlainSingle;
+    #[cfg(target_arch = "aarch64")]
+    type Neon = NeonSingle;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = Avx2Single;
     #[cfg(target_arch = "x86_64")]
@@ -95,6 +108,9 @@ impl Precision for Single {
 pub enum InstructionSet {
     /// Whatever the base instruction set of the machine offers.
     Plain,
+    /// NEON, which every 64-bit ARM processor has.
+    #[cfg(target_arch = "aarch64")]
+    Neon,
     /// AVX2 with fused multiply-add.
     #[cfg(target_arch = "x86_64")]
     Avx2,
@@ -109,7 +125,9 @@ impl InstructionSet {
     pub fn all() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
         let vector = [(Self::Avx512, avx512::available()), (Self::Avx2, avx2::available())];
-        #[cfg(not(target_arch = "x86_64"))]
+        #[cfg(target_arch = "aarch64")]
+        let vector = [(Self::Neon, true)];
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         let vector: [(Self, bool); 0] = [];
         vector.into_iter().filter(|s| s.1).map(|s| s.0).chain([Self::Plain]).collect()
     }
@@ -125,6 +143,8 @@ impl InstructionSet {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => "neon",
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => "avx2+fma",
             #[cfg(target_arch = "x86_64")]
@@ -137,6 +157,8 @@ impl InstructionSet {
     pub const fn lanes<P: Precision>(self) -> usize {
         match self {
             Self::Plain => <P::Plain as Kit>::Pair::N,
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => <P::Neon as Kit>::Pair::N,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => <P::Avx2 as Kit>::Pair::N,
             #[cfg(target_arch = "x86_64")]

@@ -86,7 +86,9 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
         (0..len.div_ceil(size)).into_par_iter().for_each(|c| {
             let chunk = Chunk { index: c, first: c * size, end: len.min((c + 1) * size) };
             match set {
-                InstructionSet::Plain => walk::plain::<_, P::Plain>(walk, &chunk),
+                InstructionSet::Plain => walk::base::<_, P::Plain>(walk, &chunk),
+                #[cfg(target_arch = "aarch64")]
+                InstructionSet::Neon => walk::base::<_, P::Neon>(walk, &chunk),
                 // SAFETY: this variant is only chosen where the machine has AVX2 and FMA.
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx2 => unsafe { walk::avx2::<_, P::Avx2>(walk, &chunk) },

@@ -35,8 +35,8 @@ pub trait Walk<E> {
     fn chunk<K: Kit<Pair: Lanes<E = E>>>(&self, chunk: &Chunk);
 }
 
-/// The loop with plain lanes.
-pub fn plain<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
+/// The loop with lanes of the base instruction set: plain ones everywhere, NEON on arm64.
+pub fn base<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
 
@@ -196,9 +196,9 @@ impl<'a> Then<'a> {
         set: InstructionSet,
     ) -> Self {
         let call = match set {
-            InstructionSet::Plain => {
-                call_plain::<P::Plain, U, D> as unsafe fn(*const (), usize, usize, &Sums)
-            }
+            InstructionSet::Plain => call_base::<P::Plain, U, D> as unsafe fn(*const (), usize, usize, &Sums),
+            #[cfg(target_arch = "aarch64")]
+            InstructionSet::Neon => call_base::<P::Neon, U, D>,
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => call_avx2::<P::Avx2, U, D>,
             #[cfg(target_arch = "x86_64")]
@@ -217,7 +217,7 @@ impl<'a> Then<'a> {
 
 /// # Safety
 /// `updating` points at an `Updating<U>`.
-unsafe fn call_plain<K: Kit, U: Update<D>, const D: usize>(
+unsafe fn call_base<K: Kit, U: Update<D>, const D: usize>(
     updating: *const (),
     first: usize,
     count: usize,
@@ -228,7 +228,7 @@ unsafe fn call_plain<K: Kit, U: Update<D>, const D: usize>(
 }
 
 /// # Safety
-/// As [`call_plain`], and the machine has AVX2 and FMA.
+/// As [`call_base`], and the machine has AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(
@@ -242,7 +242,7 @@ unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(
 }
 
 /// # Safety
-/// As [`call_plain`], and the machine has AVX-512 F and DQ, AVX2 and FMA.
+/// As [`call_base`], and the machine has AVX-512 F and DQ, AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
 unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(
