@@ -52,6 +52,24 @@ macro_rules! glossary {
                 )
             }
 
+            /// Whether it is set before a run, or from outside, and not by the passes of a step: many particles then have the same.
+            #[must_use]
+            pub const fn is_given(self) -> bool {
+                matches!(
+                    self,
+                    Self::Mass
+                        | Self::Volume
+                        | Self::Body
+                        | Self::Correction
+                        | Self::BodyForce
+                        | Self::Free
+                        | Self::PrescribedVelocity
+                        | Self::RestDensity
+                        | Self::SoundSpeed
+                        | Self::ShearModulus
+                )
+            }
+
             /// The rank.
             #[must_use]
             pub const fn rank(self) -> Rank {

@@ -4,6 +4,7 @@
 //!
 //! Parallel loops use the rayon pool they are called from: a simulation enters one pool for its whole run.
 
+mod homes;
 mod kit;
 mod lines;
 mod list;
@@ -19,6 +20,7 @@ use crate::field::{Quantity, Record};
 use crate::neighbours::{CellGrid, Lattice, SearchError};
 use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
+use homes::Homes;
 use lines::Lines;
 use list::{PairList, place_words};
 use places::{PairPlaces, Shared};
@@ -39,6 +41,7 @@ pub struct Cpu<const D: usize, P: Precision = Double> {
     grid: CellGrid<D>,
     list: PairList<P::E, D>,
     stencil: Option<Stencil<D>>,
+    homes: Homes,
     bodies: Vec<u32>,
     records: Lines<P::E>,
     partial: Vec<f64>,
@@ -70,6 +73,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
             grid: CellGrid::new(),
             list: PairList::default(),
             stencil: None,
+            homes: Homes::default(),
             bodies: Vec::new(),
             records: Lines::default(),
             partial: Vec::new(),
@@ -172,8 +176,14 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
         if S::Reads::FIELDS.iter().any(|field| writes.contains(field)) {
             own = self.copied(&own);
         }
-        let walk = walk::Stencilled { sum, then, own, stencil, now };
+        let mut homes = std::mem::take(&mut self.homes);
+        let walk = walk::Stencilled { sum, then, own, stencil, homes: homes.of(stencil, &self.store), now };
         self.cut(&walk, stencil.blocks.len(), CHUNK / self.set.lanes::<P>());
+        // A pass that writes what is given, such as B, changes homes.
+        if writes.iter().any(|field| field.is_given()) {
+            homes.forget();
+        }
+        self.homes = homes;
     }
 
     /// A copy of a record's columns.
@@ -198,6 +208,7 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     }
 
     fn particles_mut(&mut self) -> &mut Particles<D> {
+        self.homes.forget();
         self.store.particles_mut()
     }
 
@@ -206,6 +217,7 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     }
 
     fn set_word(&mut self, field: Quantity, word: usize, (place, value): (usize, f64)) {
+        self.homes.changed(field);
         self.store.set_word(field, word, (place, value));
     }
 
@@ -215,6 +227,7 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
         self.bodies.clear();
         self.bodies.extend(particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
         self.stencil = self.lattice(how)?;
+        self.homes.forget();
         if self.stencil.is_none() { self.search(how) } else { Ok(()) }
     }
 
@@ -226,7 +239,10 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     fn pairs<S: PairSum<D>, U: Update<D, Sum = S::Adds>>(&mut self, sum: &S, then: &U, now: Now<f64>) {
         // Single copies that the sum reads must exist before the update learns where to write.
         let _ = self.store.pair_places::<S::Reads>();
-        let (reads, writes) = (self.store.places::<U::Reads>(), self.store.places::<U::Writes>());
+        // Without a stencil every particle is at home where it is.
+        let homes = self.stencil.as_ref().map(|_| &self.homes);
+        let reads = self.store.places::<U::Reads>(|field| homes.is_some_and(|h| h.shares(field)));
+        let writes = self.store.places::<U::Writes>(|_| false);
         let updating = Updating { then, reads: &reads, writes: &writes, now };
         let after = Then::new::<P, U, D>(&updating, self.set);
         match self.stencil.take() {
@@ -239,12 +255,13 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     }
 
     fn each<U: Update<D, Sum = ()>>(&mut self, update: &U, now: Now<f64>) {
-        let (reads, writes) = (self.store.places::<U::Reads>(), self.store.places::<U::Writes>());
+        let (reads, writes) =
+            (self.store.places::<U::Reads>(|_| false), self.store.places::<U::Writes>(|_| false));
         self.cut(&walk::Each::<U, D> { update, reads, writes, now }, self.len(), CHUNK);
     }
 
     fn reduce<R: Reduce<D, K>, const K: usize>(&mut self, reduce: &R) -> [f64; K] {
-        let reads = self.store.places::<R::Reads>();
+        let reads = self.store.places::<R::Reads>(|_| false);
         self.partial.resize(self.len().div_ceil(CHUNK) * K, 0.0);
         let partial = Shared::new(&mut self.partial);
         self.cut(&walk::Fold::<R, D, K> { reduce, reads, partial }, self.len(), CHUNK);

@@ -129,6 +129,8 @@ pub struct Column {
     pub double: *mut f64,
     /// In single precision, or null.
     pub single: *mut f32,
+    /// Whether it is read at the home of the particles.
+    pub shared: bool,
 }
 
 /// What an update reads or writes. In a double run all columns are double; in a single run state is double (and single beside it, where
@@ -147,7 +149,7 @@ impl Places {
     /// The columns of record `R`.
     pub fn of<R: Record<D>, const D: usize>(mut column: impl FnMut(Quantity, usize) -> Column) -> Self {
         assert!(R::WORDS <= MAX_WORDS, "a record of {} numbers is too wide", R::WORDS);
-        let nowhere = Column { double: std::ptr::null_mut(), single: std::ptr::null_mut() };
+        let nowhere = Column { double: std::ptr::null_mut(), single: std::ptr::null_mut(), shared: false };
         let mut columns = [nowhere; MAX_WORDS];
         let mut k = 0;
         for &field in R::FIELDS {
@@ -160,11 +162,27 @@ impl Places {
     }
 }
 
-/// Some consecutive particles: `count` of them from `first` on. `MIXED` says whether columns may be single.
+/// Consecutive particles: `count` of them from `first` on. What they share with those from `home` on, bit by bit, is read there, where it
+/// is still in the first cache (see [`super::homes`]).
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    pub first: usize,
+    pub home: usize,
+    pub count: usize,
+}
+
+impl Span {
+    /// Particles that share nothing with others.
+    #[inline(always)]
+    pub const fn new(first: usize, count: usize) -> Self {
+        Self { first, home: first, count }
+    }
+}
+
+/// The numbers of some consecutive particles, as many as an update has lanes or fewer. `MIXED` says whether columns may be single.
 pub struct Some<'a, const MIXED: bool> {
     pub places: &'a Places,
-    pub first: usize,
-    pub count: usize,
+    pub span: Span,
 }
 
 // SAFETY of the blocks below: whoever makes a `Some` has checked that the particles exist and belong to the chunk of this
@@ -175,16 +193,17 @@ impl<U: Lanes<E = f64>, const MIXED: bool> Source<U> for Some<'_, MIXED> {
         unsafe {
             let column = self.places.columns.get_unchecked(k);
             let single = MIXED && column.double.is_null();
-            if self.count == U::N {
+            let first = if column.shared { self.span.home } else { self.span.first };
+            if self.span.count == U::N {
                 return if single {
-                    U::load_single(column.single.add(self.first))
+                    U::load_single(column.single.add(first))
                 } else {
-                    U::load(column.double.add(self.first))
+                    U::load(column.double.add(first))
                 };
             }
             let mut lanes = [0.0; MOST_LANES];
             for (l, lane) in lanes.iter_mut().enumerate().take(U::N) {
-                let a = self.first + if l < self.count { l } else { 0 };
+                let a = first + if l < self.span.count { l } else { 0 };
                 *lane =
                     if single { f64::from(column.single.add(a).read()) } else { column.double.add(a).read() };
             }
@@ -198,23 +217,24 @@ impl<U: Lanes<E = f64>, const MIXED: bool> Sink<U> for Some<'_, MIXED> {
     fn put(&mut self, k: usize, x: U) {
         unsafe {
             let column = self.places.columns.get_unchecked(k);
-            if self.count == U::N {
+            let Span { first, count, .. } = self.span;
+            if count == U::N {
                 if !MIXED || !column.double.is_null() {
-                    x.store(column.double.add(self.first));
+                    x.store(column.double.add(first));
                 }
                 if MIXED && !column.single.is_null() {
-                    x.store_single(column.single.add(self.first));
+                    x.store_single(column.single.add(first));
                 }
                 return;
             }
             let mut lanes = [0.0; MOST_LANES];
             x.store(lanes.as_mut_ptr());
-            for (l, &value) in lanes.iter().enumerate().take(self.count) {
+            for (l, &value) in lanes.iter().enumerate().take(count) {
                 if !column.double.is_null() {
-                    column.double.add(self.first + l).write(value);
+                    column.double.add(first + l).write(value);
                 }
                 if MIXED && !column.single.is_null() {
-                    column.single.add(self.first + l).write(value as f32);
+                    column.single.add(first + l).write(value as f32);
                 }
             }
         }

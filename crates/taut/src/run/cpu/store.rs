@@ -102,20 +102,22 @@ impl<const D: usize, P: Precision> Store<D, P> {
         let column = self.particles.place(field) + word;
         let double = self.particles.nth_ptr(column);
         match (P::MIXED, field.is_state()) {
-            (false, _) => Column { double, single: std::ptr::null_mut() },
-            (true, false) => Column { double: std::ptr::null_mut(), single: self.single_column(column) },
+            (false, _) => Column { double, single: std::ptr::null_mut(), shared: false },
+            (true, false) => {
+                Column { double: std::ptr::null_mut(), single: self.single_column(column), shared: false }
+            }
             (true, true) => {
                 let copied = self.used.get(column).copied().unwrap_or(false);
                 let single = if copied { self.single_column(column) } else { std::ptr::null_mut() };
-                Column { double, single }
+                Column { double, single, shared: false }
             }
         }
     }
 
-    /// The columns of an update's record.
-    pub fn places<R: Record<D>>(&mut self) -> Places {
+    /// The columns of an update's record; `shared` says which fields are read at the home of a block.
+    pub fn places<R: Record<D>>(&mut self, shared: impl Fn(Quantity) -> bool) -> Places {
         self.room();
-        Places::of::<R, D>(|field, word| self.column(field, word))
+        Places::of::<R, D>(|field, word| Column { shared: shared(field), ..self.column(field, word) })
     }
 
     /// Where a pair sum finds a number.

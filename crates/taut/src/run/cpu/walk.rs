@@ -11,7 +11,7 @@ pub use points::{Each, Fold};
 pub use stencilled::Stencilled;
 
 use super::kit::{InstructionSet, Kit, Precision};
-use super::places::{Places, Some};
+use super::places::{Places, Some, Span};
 use crate::field::{Record, Sink, Source};
 use crate::math::{Lanes, MOST_LANES};
 use crate::pass::{Now, Update};
@@ -147,20 +147,21 @@ pub struct Updating<'a, U> {
 }
 
 impl<U> Updating<'_, U> {
-    /// Updates `count` particles from `first` on, whose sums are in `sums`, in the lanes of `K`.
+    /// Updates particles whose sums are in `sums`, in the lanes of `K`.
     #[inline(always)]
-    pub fn at<K: Kit, const D: usize>(&self, first: usize, count: usize, sums: &Sums)
+    pub fn at<K: Kit, const D: usize>(&self, span: Span, sums: &Sums)
     where
         U: Update<D>,
     {
         let now = self.now.cast::<K::Point>();
         let mut done = 0;
-        while done < count {
-            let some = (count - done).min(K::Point::N);
+        while done < span.count {
+            let some = (span.count - done).min(K::Point::N);
+            let part = Span { first: span.first + done, home: span.home + done, count: some };
             let sum = U::Sum::read::<K::Point>(&From(sums, done));
             macro_rules! update {
                 ($mixed:literal) => {{
-                    let place = |places| Some::<$mixed> { places, first: first + done, count: some };
+                    let place = |places| Some::<$mixed> { places, span: part };
                     let own = U::Reads::read::<K::Point>(&place(self.reads));
                     U::Writes::write(self.then.at(&sum, &own, &now), &mut place(self.writes));
                 }};
@@ -180,7 +181,7 @@ impl<U> Updating<'_, U> {
 #[derive(Clone, Copy)]
 pub struct Then<'a> {
     updating: *const (),
-    call: unsafe fn(*const (), usize, usize, &Sums),
+    call: unsafe fn(*const (), Span, &Sums),
     lives: PhantomData<&'a ()>,
 }
 
@@ -196,7 +197,7 @@ impl<'a> Then<'a> {
         set: InstructionSet,
     ) -> Self {
         let call = match set {
-            InstructionSet::Plain => call_base::<P::Plain, U, D> as unsafe fn(*const (), usize, usize, &Sums),
+            InstructionSet::Plain => call_base::<P::Plain, U, D> as unsafe fn(*const (), Span, &Sums),
             #[cfg(target_arch = "aarch64")]
             InstructionSet::Neon => call_base::<P::Neon, U, D>,
             #[cfg(target_arch = "x86_64")]
@@ -207,50 +208,35 @@ impl<'a> Then<'a> {
         Self { updating: std::ptr::from_ref(updating).cast(), call, lives: PhantomData }
     }
 
-    /// Updates `count` particles from `first` on, whose sums are in `sums`.
+    /// Updates particles whose sums are in `sums`.
     #[inline(always)]
-    pub fn at(&self, first: usize, count: usize, sums: &Sums) {
+    pub fn at(&self, span: Span, sums: &Sums) {
         // SAFETY: `updating` lives as long as this, and `call` was made for its type and for instructions that are there.
-        unsafe { (self.call)(self.updating, first, count, sums) }
+        unsafe { (self.call)(self.updating, span, sums) }
     }
 }
 
 /// # Safety
 /// `updating` points at an `Updating<U>`.
-unsafe fn call_base<K: Kit, U: Update<D>, const D: usize>(
-    updating: *const (),
-    first: usize,
-    count: usize,
-    sums: &Sums,
-) {
+unsafe fn call_base<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
-    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(first, count, sums) }
+    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
 }
 
 /// # Safety
 /// As [`call_base`], and the machine has AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(
-    updating: *const (),
-    first: usize,
-    count: usize,
-    sums: &Sums,
-) {
+unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
-    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(first, count, sums) }
+    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
 }
 
 /// # Safety
 /// As [`call_base`], and the machine has AVX-512 F and DQ, AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
-unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(
-    updating: *const (),
-    first: usize,
-    count: usize,
-    sums: &Sums,
-) {
+unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
-    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(first, count, sums) }
+    unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
 }

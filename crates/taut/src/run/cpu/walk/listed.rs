@@ -8,6 +8,7 @@ use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
 use crate::run::cpu::lines::Plain;
 use crate::run::cpu::list::{PairList, Weights, place_words};
+use crate::run::cpu::places::Span;
 
 /// A sum over neighbours and the update that follows it.
 pub struct Listed<'a, P, E, const D: usize> {
@@ -88,7 +89,7 @@ impl<P: PairSum<D>, E: Element + Plain, const D: usize> Walk<E> for Listed<'_, P
                 self.gather((first + lane, first + lane - chunk.first), &weights, &mut rows);
             }
             rows.total(P::Adds::WORDS, (count, K::Point::N), &mut sums);
-            self.then.at(first, count, &sums);
+            self.then.at(Span::new(first, count), &sums);
             first += count;
         }
     }

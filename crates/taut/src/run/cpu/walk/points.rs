@@ -5,7 +5,7 @@ use crate::field::Record;
 use crate::math::{Lanes, Real};
 use crate::pass::{Now, Reduce, Update};
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::places::{Places, Shared, Some};
+use crate::run::cpu::places::{Places, Shared, Some, Span};
 
 /// An update without a sum.
 pub struct Each<'a, U, const D: usize> {
@@ -20,7 +20,7 @@ impl<E, U: Update<D, Sum = ()>, const D: usize> Walk<E> for Each<'_, U, D> {
     fn chunk<K: Kit<Pair: Lanes<E = E>>>(&self, chunk: &Chunk) {
         let updating =
             Updating { then: self.update, reads: &self.reads, writes: &self.writes, now: self.now };
-        updating.at::<K, D>(chunk.first, chunk.end - chunk.first, &Sums::new());
+        updating.at::<K, D>(Span::new(chunk.first, chunk.end - chunk.first), &Sums::new());
     }
 }
 
@@ -42,14 +42,12 @@ impl<E, R: Reduce<D, N>, const D: usize, const N: usize> Walk<E> for Fold<'_, R,
             let values = if K::MIXED {
                 self.reduce.at(&R::Reads::read::<K::Point>(&Some::<true> {
                     places: &self.reads,
-                    first,
-                    count,
+                    span: Span::new(first, count),
                 }))
             } else {
                 self.reduce.at(&R::Reads::read::<K::Point>(&Some::<false> {
                     places: &self.reads,
-                    first,
-                    count,
+                    span: Span::new(first, count),
                 }))
             };
             for k in 0..N {

@@ -5,7 +5,7 @@ use crate::field::{Of, Record};
 use crate::math::{Element, Lanes};
 use crate::pass::{ALL_WEIGHTS, Now, PairSum};
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::places::{PairPlaces, Row};
+use crate::run::cpu::places::{PairPlaces, Row, Span};
 use crate::run::cpu::stencil::{Block, Stencil};
 
 /// A sum over the neighbours of lattice-born particles and the update that follows it; a chunk counts blocks.
@@ -15,6 +15,8 @@ pub struct Stencilled<'a, P, E, const D: usize> {
     /// Where the sum reads; nobody writes there meanwhile.
     pub own: PairPlaces<E>,
     pub stencil: &'a Stencil<D>,
+    /// The home of every block, or nothing if each is its own.
+    pub homes: &'a [u32],
     pub now: Now<f64>,
 }
 
@@ -81,10 +83,12 @@ impl<P: PairSum<D>, E: Element, const D: usize> Walk<E> for Stencilled<'_, P, E,
     fn chunk<K: Kit<Pair: Lanes<E = E>>>(&self, chunk: &Chunk) {
         let now = self.now.cast::<K::Pair>();
         let mut sums = Sums::new();
-        for block in &self.stencil.blocks[chunk.first..chunk.end] {
+        for k in chunk.first..chunk.end {
+            let block = &self.stencil.blocks[k];
             let sum = self.gather(block, &now);
             P::Adds::write(sum, &mut Together(&mut sums));
-            self.then.at(block.first as usize, usize::from(block.active), &sums);
+            let home = self.homes.get(k).map_or(block.first, |&home| home) as usize;
+            self.then.at(Span { first: block.first as usize, home, count: block.active.into() }, &sums);
         }
     }
 }
