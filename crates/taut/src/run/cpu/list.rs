@@ -21,8 +21,9 @@
 
 use super::CHUNK;
 use super::lines::{Lines, Plain};
-use crate::math::{Element, Lanes, Vector, prefetch};
+use crate::math::{Element, Lanes, MOST_LANES, Vector, prefetch};
 use crate::pass::{ALL_WEIGHTS, Pair};
+use rayon::prelude::*;
 
 /// Blocks between the one at work and the one asked for.
 const AHEAD: usize = 16;
@@ -63,15 +64,17 @@ impl<E> Default for PairChunk<E> {
 pub struct PairList<E, const D: usize> {
     /// Chunk by chunk.
     pub chunks: Vec<PairChunk<E>>,
-    /// The places of all particles, in [`place_words`] numbers each.
-    pub places: Vec<E>,
+    /// The places of all particles: [`place_words`] columns, with readable numbers behind each.
+    places: Vec<E>,
+    /// Numbers from one column to the next.
+    column: usize,
     /// A step of the fine grid, m.
     unit: f64,
 }
 
 impl<E, const D: usize> Default for PairList<E, D> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), places: Vec::new(), unit: 1.0 }
+        Self { chunks: Vec::new(), places: Vec::new(), column: 0, unit: 1.0 }
     }
 }
 
@@ -97,14 +100,27 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
         let len = x[0].len();
         self.unit = support / STEPS;
         self.chunks.resize_with(len.div_ceil(CHUNK), PairChunk::default);
-        self.places.resize(len * place_words::<E, D>(), E::default());
-        let steps = |a: usize, axis: usize| (x[axis][a] / self.unit).round() as i64 as u32;
-        for (a, place) in self.places.chunks_exact_mut(place_words::<E, D>()).enumerate() {
-            let coordinates: [u32; D] = std::array::from_fn(|axis| steps(a, axis));
-            for (word, some) in place.iter_mut().zip(coordinates.chunks(E::COORDINATES)) {
-                *word = E::packed(some);
-            }
+        self.column = len + MOST_LANES;
+        self.places.resize(self.column * place_words::<E, D>(), E::default());
+        let per_metre = 1.0 / self.unit;
+        let steps = |x: f64| (x * per_metre).round() as i64 as u32;
+        for (word, column) in self.places.chunks_exact_mut(self.column).enumerate() {
+            let axes = &x[word * E::COORDINATES..D.min((word + 1) * E::COORDINATES)];
+            column[..len].par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, places)| {
+                for (i, place) in places.iter_mut().enumerate() {
+                    let mut coordinates = [0; 2];
+                    for (coordinate, x) in coordinates.iter_mut().zip(axes) {
+                        *coordinate = steps(x[chunk * CHUNK + i]);
+                    }
+                    *place = E::packed(&coordinates);
+                }
+            });
         }
+    }
+
+    /// The columns of places.
+    pub fn places(&mut self) -> impl Iterator<Item = *mut E> {
+        self.places.chunks_exact_mut(self.column.max(1)).map(|column| column.as_mut_ptr())
     }
 
     /// Pairs, each counted from both sides.

@@ -22,9 +22,10 @@ use crate::particles::Particles;
 use crate::pass::{Now, PairSum, Reduce, Update};
 use homes::Homes;
 use lines::Lines;
-use list::{PairList, place_words};
+use list::PairList;
 use places::{PairPlaces, Shared};
 use rayon::prelude::*;
+use std::marker::PhantomData;
 use std::sync::atomic::AtomicU64;
 use stencil::Stencil;
 use store::Store;
@@ -145,21 +146,16 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
 
     /// The pair loop over packed records and a list.
     fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
-        let own = self.store.pair_places::<S::Reads>();
+        let mut own = self.store.pair_places::<S::Reads>();
+        self.list.places().for_each(|column| own.push(column));
         let (stride, len) = (walk::stride::<S::Reads, P::E, D>(), self.len());
-        let (words, width) = (own.len(), place_words::<P::E, D>());
-        let places = &self.list.places;
         if self.records.len() < len * stride {
             self.records.resize(len * stride);
         }
-        self.records[..len * stride].par_chunks_mut(CHUNK * stride).enumerate().for_each(|(c, rows)| {
-            for (i, row) in rows.chunks_exact_mut(stride).enumerate() {
-                // SAFETY: the place is below `len`; nobody writes columns while they are packed.
-                unsafe { own.gather(c * CHUNK + i, row) };
-                let a = c * CHUNK + i;
-                row[words..words + width].copy_from_slice(&places[a * width..(a + 1) * width]);
-            }
-        });
+        let mut rows = std::mem::take(&mut self.records);
+        let records = Shared::new(&mut rows);
+        self.cut(&walk::Packing::<S::Reads, _, D> { own, records, record: PhantomData }, len, CHUNK);
+        self.records = rows;
         let (records, list) = (&self.records[..len * stride], &self.list);
         self.cut(&walk::Listed { sum, then, records, list, now }, len, CHUNK);
     }

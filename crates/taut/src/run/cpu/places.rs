@@ -37,6 +37,14 @@ impl<E> Shared<E> {
     }
 
     /// # Safety
+    /// `i` is inside the slice, or one past its end.
+    #[inline(always)]
+    pub unsafe fn from(self, i: usize) -> *mut E {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.add(i) }
+    }
+
+    /// # Safety
     /// `i` is inside the slice, and no other thread touches element `i` meanwhile.
     #[inline(always)]
     pub unsafe fn set(self, i: usize, x: E) {
@@ -76,16 +84,14 @@ impl<E: Element> PairPlaces<E> {
         self.len
     }
 
-    /// Copies the record of particle `a` into a row.
+    /// Number `k` of particle `a`.
     ///
     /// # Safety
-    /// `a` is a particle, and nobody writes its record meanwhile.
+    /// `a` is a particle, and `k` is below the width of the record.
     #[inline(always)]
-    pub unsafe fn gather(&self, a: usize, row: &mut [E]) {
-        for k in 0..self.len.min(row.len()) {
-            // SAFETY: the caller's promise.
-            row[k] = unsafe { self.columns[k].0.add(a).read() };
-        }
+    pub unsafe fn from(&self, k: usize, a: usize) -> *const E {
+        // SAFETY: the caller's promise.
+        unsafe { self.columns.get_unchecked(k).from(a) }
     }
 
     /// The same record elsewhere: column `k` starts at `first + k * stride` of a buffer.

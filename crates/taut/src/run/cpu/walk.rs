@@ -2,11 +2,13 @@
 
 mod listed;
 mod listing;
+mod packing;
 mod points;
 mod stencilled;
 
 pub use listed::{Listed, stride};
 pub use listing::{Listing, MOST_PAIRS};
+pub use packing::Packing;
 pub use points::{Each, Fold};
 pub use stencilled::Stencilled;
 
