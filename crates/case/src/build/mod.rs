@@ -2,6 +2,7 @@
 
 mod bodies;
 mod drives;
+mod gap;
 mod observe;
 mod shapes;
 mod solvers;

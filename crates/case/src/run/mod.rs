@@ -1,23 +1,35 @@
 //! Running a case: the only time loop of the project.
 
+mod books;
+mod contact;
 pub mod curves;
 mod error;
 mod frames;
 mod history;
 mod measures;
-mod record;
+mod recorder;
+mod sheet;
 mod trial;
+mod watcher;
+mod writer;
 
 pub use error::RunError;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build};
-use output::{Frame, ResultDir, Summary};
-use record::Recorder;
+use books::Books;
+use output::manifest::Machine;
+use output::{Frame, Manifest, ResultDir, Summary};
+use recorder::Recorder;
+use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::simulation::Simulation;
+use taut::integrator::Diverged;
+use taut::run::InstructionSet;
+use taut::simulation::{Simulation, Totals};
+use watcher::Watcher;
+use writer::Writer;
 
 /// How to run a case.
 #[derive(Clone, Debug)]
@@ -41,7 +53,7 @@ pub struct Progress {
     pub wall: f64,
 }
 
-/// Somebody who watches a run.
+/// Somebody who watches a run: `stepped` from the run itself, `warned` and `framed` from the thread that writes.
 pub trait Observer: Send {
     /// The run is about to begin with so many particles.
     fn started(&mut self, _case: &Case, _particles: usize, _threads: usize) {}
@@ -50,7 +62,7 @@ pub trait Observer: Send {
     /// Where the run stands; called after every step.
     fn stepped(&mut self, _progress: &Progress) {}
     /// A frame was written.
-    fn framed(&mut self, _frame: &Frame) {}
+    fn framed(&mut self, _frame: Frame) {}
 }
 
 /// An observer that does not look.
@@ -85,22 +97,72 @@ fn in_pool(
     for warning in &built.warnings {
         observer.warned(warning);
     }
-    let (mut recorder, solvers, drives) = Recorder::create(case, built, results)?;
-    let clock = Instant::now();
-    let mut simulation = match Simulation::start(solvers, drives) {
-        Ok(simulation) => simulation,
-        Err(diverged) => return Err(recorder.never_started(diverged)?),
+    let machine = Machine::here(InstructionSet::best().name());
+    Manifest::new(case.case_text_as_run(), machine, rayon::current_num_threads(), "double").write(results)?;
+    let Built { solvers, drives, probes, watch, warnings, .. } = built;
+    let writer = Writer::create(case, results, watch, warnings)?;
+    // What the writer does in parallel elsewhere, it does alone: the threads of the run are not for it.
+    let desk = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(RunError::threads)?;
+    let (watcher, clock) = (Watcher::new(observer), Instant::now());
+    let mut simulation = Simulation::new(solvers, drives);
+    let (outbox, inbox) = sheets();
+    let mut written = None;
+    let marched = desk.in_place_scope(|scope| {
+        let (written, watcher) = (&mut written, &watcher);
+        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher)));
+        let march = March { case, simulation: &mut simulation, watcher, clock };
+        march.to_the_end(Recorder::new(case, probes, outbox))
+    });
+    let writer = written.transpose()?;
+    let (Some(writer), Ok((start, stopped))) = (writer, marched) else {
+        unreachable!("a writer that stops early says why");
     };
-    recorder.begin(&simulation, observer)?;
-    while simulation.time() < case.time.end {
-        let stepped = simulation.step();
-        if let Err(diverged) = stepped {
-            return Err(recorder.diverged(&simulation, diverged, clock.elapsed().as_secs_f64())?);
-        }
-        recorder.after_step(&simulation, observer)?;
-        let wall = clock.elapsed().as_secs_f64();
-        let (time, step) = (simulation.time(), simulation.steps());
-        observer.stepped(&Progress { time, end: case.time.end, step, wall });
+    let wall = clock.elapsed().as_secs_f64();
+    let books = Books { case, results, simulation: &simulation, writer, start, wall };
+    match stopped {
+        None => books.done(),
+        Some(diverged) => Err(books.diverged(diverged)?),
     }
-    recorder.end(&simulation, clock.elapsed().as_secs_f64(), observer)
+}
+
+/// The time loop.
+struct March<'a> {
+    case: &'a Case,
+    simulation: &'a mut Simulation,
+    watcher: &'a Watcher<'a>,
+    clock: Instant,
+}
+
+/// Totals at the start, and why the run stopped before its end.
+type Marched = Result<(Option<Totals>, Option<Diverged>), WriterGone>;
+
+impl March<'_> {
+    fn to_the_end(mut self, mut recorder: Recorder<'_>) -> Marched {
+        let stopped = self.steps(&mut recorder)?;
+        let start = recorder.start;
+        match stopped {
+            None => recorder.end(self.simulation)?,
+            Some(_) => recorder.abandon(self.simulation)?,
+        }
+        Ok((start, stopped))
+    }
+
+    fn steps(&mut self, recorder: &mut Recorder<'_>) -> Result<Option<Diverged>, WriterGone> {
+        if let Err(diverged) = self.simulation.begin() {
+            return Ok(Some(diverged));
+        }
+        recorder.begin(self.simulation)?;
+        let end = self.case.time.end;
+        while self.simulation.time() < end {
+            if let Err(diverged) = self.simulation.step() {
+                return Ok(Some(diverged));
+            }
+            recorder.after_step(self.simulation)?;
+            let wall = self.clock.elapsed().as_secs_f64();
+            let progress =
+                Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
+            self.watcher.with(|observer| observer.stepped(&progress));
+        }
+        Ok(None)
+    }
 }
