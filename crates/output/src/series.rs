@@ -14,6 +14,7 @@ use crate::{Frame, OutputError, ResultDir, vtp, write_atomically};
 pub struct Series {
     folder: PathBuf,
     times: Vec<f64>,
+    encoder: vtp::Encoder,
 }
 
 impl Series {
@@ -22,7 +23,7 @@ impl Series {
     /// # Errors
     /// As [`ResultDir::folder`].
     pub fn create(results: &ResultDir) -> Result<Self, OutputError> {
-        Ok(Self { folder: results.folder("particles")?, times: Vec::new() })
+        Ok(Self { folder: results.folder("particles")?, times: Vec::new(), encoder: vtp::Encoder::default() })
     }
 
     /// Writes the next frame and lists it.
@@ -38,7 +39,7 @@ impl Series {
             return Err(OutputError::inconsistent(format!("frame {}", frame.step), problem));
         }
         let path = self.folder.join(file_name(self.times.len()));
-        let bytes = vtp::encode(frame).map_err(|cause| OutputError::write(&path, cause))?;
+        let bytes = self.encoder.encode(frame).map_err(|cause| OutputError::write(&path, cause))?;
         write_atomically(&path, &bytes)?;
         self.times.push(frame.time);
         write_atomically(&self.folder.join("particles.pvd"), self.list().as_bytes())

@@ -113,6 +113,21 @@ struct Arrangement<const D: usize> {
     reference: Reference<D>,
     columns: [Vec<f64>; D],
     gap: Gap<D>,
+    /// The time of the state that was measured last, s.
+    measured: Option<f64>,
+}
+
+impl<const D: usize> Arrangement<D> {
+    /// Deformation gradients by least squares, from the measurement of this state if there was one; none where
+    /// positions are not numbers.
+    fn fitted(&mut self, snapshot: &Snapshot) -> &[[[f64; D]; D]] {
+        if self.measured == Some(snapshot.time) {
+            return self.reference.last_deformation();
+        }
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        self.reference.deformation(x).unwrap_or_default()
+    }
 }
 
 fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
@@ -129,9 +144,7 @@ impl<const D: usize> Watch for Arrangement<D> {
         if out.iter().all(|f| *f != [0.0; 9]) {
             return;
         }
-        load(&mut self.columns, snapshot);
-        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
-        let fitted = self.reference.deformation(x).unwrap_or_default();
+        let fitted = self.fitted(snapshot);
         let unit = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
         for (i, out) in out.iter_mut().enumerate().filter(|(_, f)| **f == [0.0; 9]) {
             let component = |k: usize| match fitted.get(i) {
@@ -146,6 +159,7 @@ impl<const D: usize> Watch for Arrangement<D> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
         let disorder = self.reference.measure(x)?;
+        self.measured = Some(snapshot.time);
         let gap = if gap { self.gap.smallest(x)? } else { None };
         Ok(Observed { disorder, gap })
     }
@@ -164,6 +178,7 @@ pub fn disorder<const D: usize>(
     let x: [&[f64]; D] = std::array::from_fn(|i| columns[i].as_slice());
     let reference = Reference::new(x, &body, &spacing, support)
         .map_err(|error| case.error_at(case.bodies[0].place, error.to_string(), None))?;
-    let arrangement = Arrangement { reference, columns, gap: Gap::new(body.clone(), 2.0 * support) };
+    let arrangement =
+        Arrangement { reference, columns, gap: Gap::new(body.clone(), 2.0 * support), measured: None };
     Ok((Box::new(arrangement), body))
 }
