@@ -35,6 +35,7 @@ pub mod build;
 mod checked;
 mod diagnostic;
 mod expression;
+pub mod keys;
 pub mod run;
 mod source;
 mod units;

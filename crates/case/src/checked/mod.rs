@@ -31,6 +31,7 @@ pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
 pub use load::{Boundary, Constraint, Gravity, Initial};
 pub use material::{Material, Model};
+pub(crate) use measure::Measured;
 pub use measure::{Extremum, Feature, Measure, MeasureKind};
 pub use probe::{Probe, Quantity, Spot};
 pub use scheme::{March, Scheme};
