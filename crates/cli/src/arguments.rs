@@ -19,6 +19,20 @@ pub enum Command {
     List,
     /// Tell everything that can be known without running: particles, memory, time step, run time, warnings
     Check(CaseOptions),
+    /// Say in plain words what a case does
+    Explain(CaseOptions),
+    /// Write a commented starter case, NAME.toml; nothing is overwritten
+    New {
+        /// Name of the case: small letters, digits and `-`
+        #[arg(default_value = "my-case")]
+        name: String,
+    },
+    /// Print the JSON schema of case files, for editors that complete and explain
+    Schema {
+        /// The manual's page of all keys instead
+        #[arg(long)]
+        page: bool,
+    },
     /// Run published benchmarks and hold what comes out against the papers
     Validate(ValidateOptions),
     /// Rebuild pictures and report of a run (later)

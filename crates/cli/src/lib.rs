@@ -8,10 +8,13 @@ mod say;
 mod arguments;
 mod builtin;
 mod check;
+mod explain;
 mod list;
+mod new;
 mod pictures;
 mod progress;
 mod run;
+mod schema;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -46,6 +49,9 @@ where
         Command::Run(options) => run::run(&options),
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
+        Command::Explain(options) => explain::explain(&options),
+        Command::New { name } => new::new(&name),
+        Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Report { .. } => Err(Failure::Input(
             "`taut report` comes in a later version; `taut run` already draws the pictures.".into(),

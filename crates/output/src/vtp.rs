@@ -17,10 +17,19 @@ use std::io::{self, Write as _};
 
 use flate2::{Compression, write::ZlibEncoder};
 
-use crate::{Array, Frame, Values};
+use crate::{Array, Frame, OutputError, Values};
 
 /// Bytes per zlib block before compression: a multiple of every number's size.
 const BLOCK: usize = 1 << 20;
+
+/// Size of the file of a frame, bytes.
+///
+/// # Errors
+/// If the numbers cannot be compressed.
+pub fn encoded_size(frame: &Frame) -> Result<usize, OutputError> {
+    let bytes = Encoder::default().encode(frame);
+    bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
+}
 
 /// Makes the bytes of files. Whole numbers (identities, cells) are mostly those of the frame before, so their
 /// compressed bytes are kept.

@@ -61,6 +61,8 @@ pub struct Gravity {
     pub body: Option<usize>,
     /// Particles whose reference position is in here; `None` for all.
     pub region: Option<ShapeSpec>,
+    /// Its header in the case file.
+    pub place: Place,
 }
 
 /// What loads are read with.
@@ -94,7 +96,7 @@ impl LoadReader<'_, '_> {
                 .need(gravity::ACCELERATION.name)
                 .and_then(|node| self.scope.vector_field(node, &gravity::ACCELERATION)),
         );
-        Some(Gravity { acceleration: acceleration?, body: body?, region: region? })
+        Some(Gravity { acceleration: acceleration?, body: body?, region: region?, place: section.place })
     }
 
     /// One velocity at the start.

@@ -23,6 +23,14 @@ pub struct Material {
     pub place: Place,
 }
 
+impl Material {
+    /// Speed of the longitudinal wave, sqrt((K + 4G/3)/rho), m/s.
+    pub fn wave_speed(&self) -> f64 {
+        let e = &self.elastic;
+        ((e.bulk_modulus + e.shear_modulus * 4.0 / 3.0) / self.density).sqrt()
+    }
+}
+
 /// A law of stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Model {

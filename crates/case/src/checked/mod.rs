@@ -15,6 +15,7 @@ mod measure;
 mod names;
 mod parameters;
 mod parts;
+mod plausible;
 mod probe;
 mod read;
 mod scheme;

@@ -65,7 +65,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         spacing: spacing?,
         kernel,
         parameters: scope.parameters,
-        warnings: parts.warnings(plane),
+        warnings: parts.warnings(root, plane),
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,

@@ -44,6 +44,8 @@ pub enum March {
 pub(crate) struct Schemes {
     /// Of a body that does not name its own.
     pub formulation: Formulation,
+    /// Whether what the case says about it makes sense.
+    pub known: bool,
     smoothing: Option<f64>,
     cfl: Option<f64>,
     step: Option<(StepRule, Place)>,
@@ -63,6 +65,7 @@ impl Schemes {
         let smoothing = optional(root.get(case::SMOOTHING.name), problems, |n| scope.of(n, &case::SMOOTHING));
         let cfl = optional(of_time(time::CFL.name), problems, |n| cfl(scope, n));
         Self {
+            known: formulation.is_some() || root.get(case::FORMULATION.name).is_none(),
             formulation: formulation.map_or(defaults::FORMULATION, |(formulation, _)| formulation),
             smoothing: smoothing.map(|(value, _)| value),
             cfl: cfl.map(|(value, _)| value),

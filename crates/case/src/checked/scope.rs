@@ -38,10 +38,14 @@ impl Scope {
         let number = self.number(node, &key.quoted(), dimension)?;
         let wrong = |what: &str| Diagnostic::at(node.place, format!("`{}` {what}, found {number}", key.name));
         match range {
-            Range::Positive | Range::Share if number <= 0.0 => {
+            Range::Positive | Range::Share | Range::Smoothing if number <= 0.0 => {
                 Err(wrong("has to be positive").label("expected a number > 0"))
             }
             Range::Share if number > 1.0 => Err(wrong("has to lie in (0, 1]")),
+            Range::Smoothing if number < 0.6 => Err(wrong("has to be at least 0.6")
+                .help("with less hardly any particle has neighbours; 1.15 and 1.3 are usual")),
+            Range::Smoothing if number > 4.0 => Err(wrong("has to be at most 4")
+                .help("with more every particle has thousands of neighbours; 1.15 and 1.3 are usual")),
             Range::NotNegative if number < 0.0 => Err(wrong("must not be negative")),
             _ => Ok(number),
         }

@@ -90,6 +90,8 @@ pub enum Range {
     Share,
     /// Between -1 and 0.5, exclusive.
     Poisson,
+    /// From 0.6 to 4: with less nobody has neighbours enough, with more everybody has thousands.
+    Smoothing,
 }
 
 impl Kind {
@@ -112,6 +114,7 @@ impl Range {
             Self::NotNegative => ">= 0",
             Self::Share => "> 0, at most 1",
             Self::Poisson => "between -1 and 0.5",
+            Self::Smoothing => "0.6 to 4",
         }
     }
 }

@@ -117,6 +117,7 @@ fn bounded(range: Range) -> Value {
         Range::Positive => &[("exclusiveMinimum", 0.0)],
         Range::NotNegative => &[("minimum", 0.0)],
         Range::Share => &[("exclusiveMinimum", 0.0), ("maximum", 1.0)],
+        Range::Smoothing => &[("minimum", 0.6), ("maximum", 4.0)],
         Range::Poisson => &[("exclusiveMinimum", -1.0), ("exclusiveMaximum", 0.5)],
     };
     for (name, bound) in bounds {

@@ -55,7 +55,7 @@ pub(crate) mod case {
     );
     pub(crate) const SMOOTHING: Key = Key::new(
         "smoothing",
-        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Kind::Number(Dimension::NUMBER, Range::Smoothing),
         Need::Default("1.15 total Lagrangian, 1.3 updated Lagrangian"),
         "Smoothing length over spacing, h/dp: how far a particle looks.",
     );

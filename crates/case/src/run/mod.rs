@@ -7,6 +7,7 @@ mod error;
 mod frames;
 mod history;
 mod measures;
+mod memory;
 mod recorder;
 mod sheet;
 mod trial;
@@ -79,13 +80,21 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// frames, probes and summary.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
     let built = build(case)?;
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let useful = (built.particles() / PARTICLES_PER_THREAD).max(1);
-    let threads = settings.threads.unwrap_or_else(|| available.min(useful)).max(1);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RunError::threads)?;
+    let threads = settings.threads.unwrap_or_else(|| useful_threads(built.particles())).max(1);
+    let pool = pool(threads)?;
     let results = ResultDir::create(&settings.out)?;
     observer.started(case, built.particles(), threads);
     pool.install(|| in_pool(case, built, &results, observer))
+}
+
+/// As many threads as there are cores, but none without particles enough.
+fn useful_threads(particles: usize) -> usize {
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    available.min((particles / PARTICLES_PER_THREAD).max(1))
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, RunError> {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RunError::threads)
 }
 
 fn in_pool(
@@ -102,7 +111,7 @@ fn in_pool(
     let Built { solvers, drives, probes, watch, warnings, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
     // What the writer does in parallel elsewhere, it does alone: the threads of the run are not for it.
-    let desk = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(RunError::threads)?;
+    let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives);
     let (outbox, inbox) = sheets();
