@@ -1,5 +1,6 @@
 //! The program as a user meets it: what is typed, what comes back, what lies in the result directory.
 
+mod cases;
 mod command_line;
 mod divergence;
 mod results;
