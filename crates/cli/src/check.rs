@@ -32,6 +32,7 @@ pub fn check(options: &CaseOptions) -> Result<(), Failure> {
 pub fn reckoned(case: &Case) -> Result<Estimate, Failure> {
     estimate(case).map_err(|error| match error {
         RunError::Case(error) => Failure::Input(error.render(colour())),
+        RunError::Diverged { diverged, .. } => Failure::Run(diverged.to_string()),
         error if error.is_input() => Failure::Input(error.to_string()),
         other => Failure::Run(other.to_string()),
     })
@@ -46,7 +47,8 @@ fn print(case: &Case, e: &Estimate) {
     say!("  time step   {:.4e} s, about {:.0} steps to {} s", e.dt, e.steps, case.time.end);
     say!("  run time    about {} on {}", duration(e.seconds), threads(e.threads));
     if let Some(spacing) = e.tried {
-        say!("  (too large to try: reckoned from the same case with a spacing of {spacing:.4e} m)");
+        say!("  (too large to try: reckoned from the same case with a spacing of {spacing:.4e} m;");
+        say!("  doubts about its particles are told when it runs)");
     }
 }
 

@@ -3,7 +3,7 @@
 use super::choices::Axis;
 use super::field::{FieldExpression, VectorField};
 use super::names::find;
-use super::scope::Scope;
+use super::scope::{Scope, place_of};
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
@@ -171,9 +171,13 @@ impl LoadReader<'_, '_> {
 /// A velocity that belongs to the start, so that it cannot use `t`.
 pub(crate) fn start_velocity(scope: &Scope, node: &Node, key: &Key) -> Result<VectorField, Diagnostic> {
     let velocity = scope.vector_field(node, key)?;
-    if velocity.depends_on_time() {
-        return Err(Diagnostic::at(node.place, "this velocity is that of the start, it cannot use `t`")
-            .help("prescribe a velocity that changes with time in a [[boundary]]"));
+    if let Some(axis) = velocity.components.iter().position(|c| c.depends_on_time()) {
+        let component = &scope.components(node, key)?[axis];
+        return Err(Diagnostic::at(
+            place_of(component, "t"),
+            "this velocity is that of the start, it cannot use `t`",
+        )
+        .help("prescribe a velocity that changes with time in a [[boundary]]"));
     }
     Ok(velocity)
 }

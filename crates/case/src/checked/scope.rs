@@ -4,6 +4,7 @@ use super::field::{FieldExpression, VectorField};
 use crate::diagnostic::Diagnostic;
 use crate::expression::{Expression, ExpressionError, Names};
 use crate::keys::{Key, Kind, Range};
+use crate::source::Place;
 use crate::units::{Dimension, Quantity};
 use crate::written::{Node, Section, Value};
 
@@ -102,7 +103,7 @@ impl Scope {
         let expression = self.expression(node, &what, dimension, &PLACE_AND_TIME)?;
         if self.dimension == 2 && expression.uses(2) {
             return Err(Diagnostic::at(
-                node.place,
+                place_of(node, "z"),
                 format!("{what} uses `z`, which a 2D case does not have"),
             ));
         }
@@ -172,6 +173,17 @@ pub(crate) fn read_quantity(node: &Node, text: &str) -> Result<Option<Quantity>,
         let place = node.content.map_or(node.place, |content| node.place.part(content, &error.span));
         Diagnostic::at(place, error.message).help(error.hint)
     })
+}
+
+/// Where an expression names something, if it stands there without escapes; else the whole text.
+pub(crate) fn place_of(node: &Node, name: &str) -> Place {
+    let (Some(content), Value::Text(text)) = (node.content, &node.value) else { return node.place };
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    let alone = |&(at, _): &(usize, &str)| {
+        !text[..at].ends_with(is_letter) && !text[at + name.len()..].starts_with(is_letter)
+    };
+    let found = text.match_indices(name).find(alone);
+    found.map_or(node.place, |(at, _)| node.place.part(content, &(at..at + name.len())))
 }
 
 /// Points at the part of the text that an expression's error is about.

@@ -84,7 +84,7 @@ pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Res
     let pool = pool(threads)?;
     let results = ResultDir::create(&settings.out)?;
     observer.started(case, built.particles(), threads);
-    pool.install(|| in_pool(case, built, &results, observer))
+    pool.install(|| in_pool(case, built, &results, (&pool, observer)))
 }
 
 /// As many threads as there are cores, but none without particles enough.
@@ -101,7 +101,7 @@ fn in_pool(
     case: &Case,
     built: Built,
     results: &ResultDir,
-    observer: &mut dyn Observer,
+    (threads, observer): (&rayon::ThreadPool, &mut dyn Observer),
 ) -> Result<Summary, RunError> {
     for warning in &built.warnings {
         observer.warned(warning);
@@ -110,7 +110,6 @@ fn in_pool(
     Manifest::new(case.case_text_as_run(), machine, rayon::current_num_threads(), "double").write(results)?;
     let Built { solvers, drives, probes, watch, warnings, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
-    // What the writer does in parallel elsewhere, it does alone: the threads of the run are not for it.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives);
@@ -118,7 +117,7 @@ fn in_pool(
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
-        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher)));
+        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, threads)));
         let march = March { case, simulation: &mut simulation, watcher, clock };
         march.to_the_end(Recorder::new(case, probes, outbox))
     });

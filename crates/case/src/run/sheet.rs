@@ -9,11 +9,15 @@
 //! There are two sheets, so memory is bounded: while one is written down the other is filled, and a run that is
 //! faster than its disk waits for a blank one.
 
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::time::Duration;
 use taut::simulation::{Snapshot, Totals};
 
 /// So many samples of probes make a full sheet, even if nothing else is due.
 const FULL: usize = 4096;
+
+/// How long a run that has nothing to do waits before it looks again.
+const PAUSE: Duration = Duration::from_micros(100);
 
 /// A sample of a probe.
 #[derive(Clone, Copy, Debug)]
@@ -105,8 +109,24 @@ impl Outbox {
     }
 
     fn send(&mut self) -> Result<(), WriterGone> {
-        let blank = self.blank.recv().map_err(|_| WriterGone)?;
+        let blank = self.wait()?;
         self.full.send(std::mem::replace(&mut self.sheet, blank)).map_err(|_| WriterGone)
+    }
+}
+
+impl Outbox {
+    /// The next blank sheet. The writer computes on the threads of the run, so this one helps while it waits.
+    fn wait(&self) -> Result<Sheet, WriterGone> {
+        loop {
+            match self.blank.try_recv() {
+                Ok(sheet) => return Ok(sheet),
+                Err(TryRecvError::Disconnected) => return Err(WriterGone),
+                Err(TryRecvError::Empty) => {}
+            }
+            if rayon::yield_now() != Some(rayon::Yield::Executed) {
+                std::thread::sleep(PAUSE);
+            }
+        }
     }
 }
 

@@ -122,7 +122,8 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let per_step = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
     // A run holds two sheets, three frames for pictures, and one that is being written.
     let (last, sheet) = (looked_at(case, &simulation, watch.as_mut())?, first.1);
-    let kept = (first.0.clone(), last.0.clone());
+    // Threads hold back what they have freed: about a frame more, if there are several.
+    let kept = vec![last.0.clone(); if threads > 1 { 3 } else { 2 }];
     let bytes = output::encoded_size(&last.0)? as f64;
     let steps = (case.time.end / dt).ceil();
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()

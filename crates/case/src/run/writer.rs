@@ -1,4 +1,4 @@
-//! What a run writes down, off the critical path: disorder, frames and tables, in a thread of its own.
+//! What a run writes down, off the critical path: disorder, frames and tables.
 
 use super::contact::Contact;
 use super::error::RunError;
@@ -9,7 +9,8 @@ use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
 use crate::build::{Observed, Watch};
-use output::{ProbeTable, ResultDir};
+use output::{Frame, ProbeTable, ResultDir};
+use rayon::ThreadPool;
 
 /// The writer's side of the books.
 pub struct Writer<'a> {
@@ -67,14 +68,26 @@ impl<'a> Writer<'a> {
         self.contact.time
     }
 
-    /// Writes down every sheet that comes, until the run is over.
+    /// Writes down every sheet that comes, until the run is over. What has to be computed goes to the threads of the run, in
+    /// between its sweeps: a thread more than there are cores would hold up whole sweeps. This one waits for the disk.
     ///
     /// # Errors
     /// A write that fails, particles whose disorder cannot be measured.
-    pub fn work(mut self, inbox: Inbox, watcher: &Watcher<'_>) -> Result<Self, RunError> {
+    pub fn work(
+        mut self,
+        inbox: Inbox,
+        watcher: &Watcher<'_>,
+        threads: &ThreadPool,
+    ) -> Result<Self, RunError> {
         while let Some(sheet) = inbox.next() {
-            self.enter(&sheet, watcher)?;
+            self.tabulate(&sheet)?;
+            let frame = threads.install(|| self.digest(&sheet, watcher))?;
             inbox.back(sheet);
+            if let Some((frame, bytes)) = frame {
+                self.frames.store(&frame, &bytes)?;
+                self.flush()?;
+                watcher.with(|observer| observer.framed(frame));
+            }
         }
         self.flush()?;
         Ok(self)
@@ -87,7 +100,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn enter(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
+    fn tabulate(&mut self, sheet: &Sheet) -> Result<(), RunError> {
         for sample in &sheet.samples {
             self.tables[sample.probe].push(sample.time, &sample.value[..self.case.dimension])?;
             let series = &mut self.series[sample.probe];
@@ -96,13 +109,21 @@ impl<'a> Writer<'a> {
                 column.push(v);
             }
         }
+        Ok(())
+    }
+
+    /// What is due of the disorder and, if one is due, a frame with the bytes of its file.
+    fn digest(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<Option<(Frame, Vec<u8>)>, RunError> {
         if sheet.look {
             self.look(sheet, watcher)?;
         }
-        if sheet.frame {
-            self.write_frame(sheet, watcher)?;
+        if !sheet.frame {
+            return Ok(None);
         }
-        Ok(())
+        self.watch.deformation(&sheet.snapshot, &mut self.deformation);
+        let frame = frame(&sheet.snapshot, &self.deformation, self.case.spacing, sheet.step);
+        let bytes = self.frames.encode(&frame)?;
+        Ok(Some((frame, bytes)))
     }
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
@@ -119,15 +140,6 @@ impl<'a> Writer<'a> {
             self.warnings.push(warning);
         }
         self.disorder.push(time, disorder);
-        Ok(())
-    }
-
-    fn write_frame(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
-        self.watch.deformation(&sheet.snapshot, &mut self.deformation);
-        let frame = frame(&sheet.snapshot, &self.deformation, self.case.spacing, sheet.step);
-        self.frames.write(&frame)?;
-        self.flush()?;
-        watcher.with(|observer| observer.framed(frame));
         Ok(())
     }
 }

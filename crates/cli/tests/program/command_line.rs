@@ -144,8 +144,9 @@ fn check_tells_what_a_run_would_be() {
     assert!(lines[1].starts_with("  body block: rubber, tl-hourglass-free, wave speed "), "{told}");
     // The longitudinal wave of E = 17 MPa, nu = 0.45, rho = 1100 kg/m^3: sqrt((K + 4G/3)/rho) = 242.117 m/s.
     assert!(lines[1].contains("242.117"), "{told}");
-    assert!(lines[2].starts_with("  particles   200 with "), "{told}");
-    for (line, heading) in lines[3..].iter().zip(["  memory ", "  time step ", "  run time "]) {
+    assert!(lines[2].contains("10 particles across"), "{told}");
+    assert!(lines[3].starts_with("  particles   200 with "), "{told}");
+    for (line, heading) in lines[4..].iter().zip(["  memory ", "  disk ", "  time step ", "  run time "]) {
         assert!(line.starts_with(heading), "{told}");
     }
     assert!(!folder.path().join("out").exists(), "a check writes nothing");
