@@ -43,6 +43,9 @@ pub enum RunError {
         /// Bytes free.
         available: f64,
     },
+    /// The writer stopped and did not say why.
+    #[error("the results are no longer written\nhint: this is a mistake in the program: please report it")]
+    Writer,
     /// Threads could not be started.
     #[error("cannot start threads: {0}\nhint: try fewer with --threads")]
     Threads(String),

@@ -110,6 +110,7 @@ fn in_pool(
     Manifest::new(case.case_text_as_run(), machine, rayon::current_num_threads(), "double").write(results)?;
     let Built { solvers, drives, probes, watch, warnings, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
+    // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives);
@@ -119,11 +120,11 @@ fn in_pool(
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, threads)));
         let march = March { case, simulation: &mut simulation, watcher, clock };
-        march.to_the_end(Recorder::new(case, probes, outbox))
+        march.finish(Recorder::new(case, probes, outbox))
     });
     let writer = written.transpose()?;
     let (Some(writer), Ok((start, stopped))) = (writer, marched) else {
-        unreachable!("a writer that stops early says why");
+        return Err(RunError::Writer);
     };
     let wall = clock.elapsed().as_secs_f64();
     let books = Books { case, results, simulation: &simulation, writer, start, wall };
@@ -145,7 +146,7 @@ struct March<'a> {
 type Marched = Result<(Option<Totals>, Option<Diverged>), WriterGone>;
 
 impl March<'_> {
-    fn to_the_end(mut self, mut recorder: Recorder<'_>) -> Marched {
+    fn finish(mut self, mut recorder: Recorder<'_>) -> Marched {
         let stopped = self.steps(&mut recorder)?;
         let start = recorder.start;
         match stopped {

@@ -1,8 +1,8 @@
 //! The sheets that go from the run to its writer and back.
 //!
 //! ```text
-//!   run (compute threads)                      writer (a thread of its own)
-//!   fills a sheet ------------- full --------> disorder, frames, tables, pictures
+//!   run                                        writer
+//!   fills a sheet ------------- full --------> disorder, frames, tables
 //!   takes an empty one <------- blank -------- hands it back
 //! ```
 //!

@@ -39,7 +39,7 @@ mod tests {
     #[test]
     fn reckoned_is_volume_over_cell_within_a_few_per_cent() {
         let pi = std::f64::consts::PI;
-        let ring = Shape::Ring { center: [0.3, -2.0, 1.0], inner: 0.7, outer: 1.0 };
+        let ring = Shape::Ring { center: [0.3, -2.0, 0.0], inner: 0.7, outer: 1.0 };
         let strip = Shape::Box { min: [0.0; 3], max: [20.0, 1.0, 0.5] };
         for (shape, dimension, volume) in [
             (&ring, Dimension::Two, pi * (1.0 - 0.49)),
