@@ -169,7 +169,8 @@ fn fits(
         let types: Vec<&str> = types
             .as_array()
             .map_or(vec![types.as_str().unwrap_or("")], |t| t.iter().filter_map(Value::as_str).collect());
-        if !types.contains(&is) && !(is == "integer" && types.contains(&"number")) {
+        let wide = if is == "integer" { "number" } else { is };
+        if !types.contains(&is) && !types.contains(&wide) {
             return Err(format!("{value} is no {types:?}"));
         }
     }
