@@ -34,7 +34,9 @@
 pub mod build;
 mod checked;
 mod diagnostic;
+mod explain;
 mod expression;
+pub mod keys;
 pub mod run;
 mod source;
 mod units;
@@ -46,6 +48,7 @@ pub use checked::{
     Probe, Quantity, Scheme, ShapeSpec, Spot, StepRule, Stepping, Time, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
+pub use explain::explain;
 pub use expression::{Expression, ExpressionError, Names};
 pub use source::{Overrides, Place};
 pub use units::{Dimension, Quantity as UnitQuantity, UnitError};

@@ -206,7 +206,10 @@ fn the_built_in_cases_are_right() {
             let case = Case::read(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(Some(case.name.as_str()), path.file_stem().and_then(|stem| stem.to_str()));
             assert!(case.parameters.iter().any(|(name, _)| name == "resolution"), "{}", case.name);
-            assert!(case.warnings.is_empty(), "{}", case.render_warnings(false));
+            // The twisting column has the Poisson ratio of the paper, 0.499, and is warned of it; nothing else is doubtful.
+            let known = usize::from(case.name == "tl-twisting-column");
+            let told = case.render_warnings(false);
+            assert!(case.warnings.len() == known && told.matches("close to 0.5").count() == known, "{told}");
             let nested = if case.formulation.family() == Family::Total { "tl-nested" } else { "ul-nested" };
             let nested = Overrides { formulation: Some(nested.into()), ..Overrides::default() };
             assert!(Case::read(&path, &nested).is_ok(), "every benchmark has its nested twin");

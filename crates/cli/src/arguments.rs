@@ -19,7 +19,21 @@ pub enum Command {
     /// List the built-in cases and benchmarks
     List,
     /// Tell everything that can be known without running: particles, memory, time step, run time, warnings
-    Check(CheckOptions),
+    Check(TrialOptions),
+    /// Say in plain words what a case does
+    Explain(TrialOptions),
+    /// Write a commented starter case, NAME.toml; nothing is overwritten
+    New {
+        /// Name of the case: small letters, digits and `-`
+        #[arg(default_value = "my-case")]
+        name: String,
+    },
+    /// Print the JSON schema of case files, for editors that complete and explain
+    Schema {
+        /// The manual's page of all keys instead
+        #[arg(long)]
+        page: bool,
+    },
     /// Run published benchmarks and hold what comes out against the papers
     Validate(ValidateOptions),
     /// Measure how fast this machine runs every formulation: see docs/performance.md
@@ -61,9 +75,9 @@ impl From<Precision> for Numbers {
     }
 }
 
-/// What to check.
+/// A case that is tried, and how it would be run.
 #[derive(Debug, Args)]
-pub struct CheckOptions {
+pub struct TrialOptions {
     #[command(flatten)]
     pub case: CaseOptions,
     /// Numbers in the sums over neighbours; what is integrated in time is double always

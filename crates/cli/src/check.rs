@@ -1,41 +1,69 @@
 //! `taut check`.
 
 use crate::Failure;
-use crate::arguments::CheckOptions;
+use crate::arguments::TrialOptions;
 use crate::builtin::{colour, read};
 use crate::say;
+use case::Case;
 use case::run::{Estimate, RunError, estimate};
+use report::{Picture, View, picture};
 
 /// Prints what a run would be.
-pub fn check(options: &CheckOptions) -> Result<(), Failure> {
-    let case = read(&options.case)?;
-    let e = estimate(&case, options.precision.into()).map_err(|error| match error {
-        RunError::Case(error) => Failure::Input(error.render(colour())),
-        other => Failure::Run(other.to_string()),
-    })?;
+pub fn check(options: &TrialOptions) -> Result<(), Failure> {
+    let (case, e) = reckoned(options)?;
     say::warnings(&case);
     say!("{}: {}", case.name, case.title);
-    for body in &case.bodies {
+    for (body, across) in case.bodies.iter().zip(&e.across) {
         if let Some(material) = case.material_of(body) {
-            let elastic = &material.elastic;
-            let speed =
-                ((elastic.bulk_modulus + elastic.shear_modulus * 4.0 / 3.0) / material.density).sqrt();
-            let formulation = body.scheme.formulation.name();
+            let (formulation, speed) = (body.scheme.formulation.name(), material.wave_speed());
             say!("  body {}: {}, {formulation}, wave speed {speed:.4} m/s", body.name, material.name);
+            say!("              {across} particles across its thinnest part");
         }
     }
-    print(&e, case.time.end);
+    print(&case, &e);
     for warning in &e.warnings {
         say!("  warning: {warning}");
     }
     Ok(())
 }
 
-fn print(e: &Estimate, end: f64) {
+/// The case, and what a run would cost.
+pub fn reckoned(options: &TrialOptions) -> Result<(Case, Estimate), Failure> {
+    let case = read(&options.case)?;
+    let estimate = estimate(&case, options.precision.into()).map_err(|error| match error {
+        RunError::Case(error) => Failure::Input(error.render(colour())),
+        RunError::Diverged { diverged, .. } => Failure::Run(diverged.to_string()),
+        error if error.is_input() => Failure::Input(error.to_string()),
+        other => Failure::Run(other.to_string()),
+    })?;
+    Ok((case, estimate))
+}
+
+fn print(case: &Case, e: &Estimate) {
     say!("  particles   {} with {:.1} neighbours", e.particles, e.neighbours);
-    say!("  memory      about {:.0} MB", (e.memory / 1e6).max(1.0));
-    say!("  time step   {:.4e} s, about {:.0} steps to {end} s", e.dt, e.steps);
-    say!("  run time    about {} on one thread", duration(e.seconds));
+    if let Some(memory) = memory(case, e) {
+        say!("  memory      about {:.0} MB", (memory / 1e6).max(1.0));
+    }
+    say!("  disk        about {:.0} MB of frames", (e.disk / 1e6).max(1.0));
+    say!("  time step   {:.4e} s, about {:.0} steps to {} s", e.dt, e.steps, case.time.end);
+    say!("  run time    about {} on {}", duration(e.seconds), threads(e.threads));
+    if let Some(spacing) = e.tried {
+        say!("  (too large to try: reckoned from the same case with a spacing of {spacing:.4e} m;");
+        say!("  doubts about its particles are told when it runs)");
+    }
+}
+
+/// Memory that a run takes, bytes: a picture is drawn as a run would, which keeps three frames for its pictures.
+fn memory(case: &Case, e: &Estimate) -> Option<f64> {
+    let view = (case.dimension == 3).then(View::default);
+    let _others = vec![e.frame.clone(); 2];
+    drop(picture(&e.frame, &Picture { view, ..Picture::default() }));
+    e.memory()
+}
+
+/// A number of threads.
+pub fn threads(n: usize) -> String {
+    if n == 1 { "one thread".to_string() } else { format!("{n} threads") }
 }
 
 /// A duration as people say it.

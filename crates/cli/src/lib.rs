@@ -9,11 +9,14 @@ mod arguments;
 mod bench;
 mod builtin;
 mod check;
+mod explain;
 mod list;
 pub mod memory;
+mod new;
 mod pictures;
 mod progress;
 mod run;
+mod schema;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -48,6 +51,9 @@ where
         Command::Run(options) => run::run(&options),
         Command::List => list::list(),
         Command::Check(options) => check::check(&options),
+        Command::Explain(options) => explain::explain(&options),
+        Command::New { name } => new::new(&name),
+        Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),
         Command::Report { .. } => Err(Failure::Input(

@@ -90,15 +90,15 @@ impl Observer for Watcher {
         }
     }
 
-    fn framed(&mut self, frame: &Frame) {
+    fn framed(&mut self, frame: Frame) {
         let middle = |f: &Frame| (f.time - self.half).abs();
         match self.kept.len() {
-            0..=2 => self.kept.push(frame.clone()),
+            0..=2 => self.kept.push(frame),
             _ => {
                 if middle(&self.kept[2]) < middle(&self.kept[1]) {
                     self.kept.swap(1, 2);
                 }
-                self.kept[2] = frame.clone();
+                self.kept[2] = frame;
             }
         }
     }

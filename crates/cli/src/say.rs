@@ -3,7 +3,6 @@
 
 use crate::builtin::colour;
 use case::Case;
-use std::io::Write;
 
 /// A line on standard output.
 macro_rules! say {
@@ -23,5 +22,7 @@ macro_rules! complain {
 
 /// The warnings of a case, on standard error.
 pub fn warnings(case: &Case) {
-    let _ = write!(std::io::stderr(), "{}", case.render_warnings(colour()));
+    if !case.warnings.is_empty() {
+        complain!("{}\n", case.render_warnings(colour()));
+    }
 }

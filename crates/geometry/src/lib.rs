@@ -27,7 +27,7 @@ mod shape;
 mod validate;
 
 pub use bounds::Bounds;
-pub use fill::{Fill, FillError, MAX_PARTICLES, Points, fill};
+pub use fill::{Fill, FillError, MAX_PARTICLES, Points, fill, reckon};
 pub use point::{Dimension, Point};
 pub use problem::{ShapeError, ShapeProblem};
 pub use shape::Shape;

@@ -41,3 +41,4 @@ pub use manifest::Manifest;
 pub use probe::{Column, ProbeTable, Table};
 pub use series::Series;
 pub use summary::Summary;
+pub use vtp::encoded_size;

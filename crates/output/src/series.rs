@@ -14,6 +14,7 @@ use crate::{Frame, OutputError, ResultDir, vtp, write_atomically};
 pub struct Series {
     folder: PathBuf,
     times: Vec<f64>,
+    encoder: vtp::Encoder,
 }
 
 impl Series {
@@ -22,7 +23,7 @@ impl Series {
     /// # Errors
     /// As [`ResultDir::folder`].
     pub fn create(results: &ResultDir) -> Result<Self, OutputError> {
-        Ok(Self { folder: results.folder("particles")?, times: Vec::new() })
+        Ok(Self { folder: results.folder("particles")?, times: Vec::new(), encoder: vtp::Encoder::default() })
     }
 
     /// Writes the next frame and lists it.
@@ -31,15 +32,32 @@ impl Series {
     /// [`OutputError::Write`]; [`OutputError::Inconsistent`] if an array does not fit the particles or
     /// the time is not later than that of the frame before. Frames written before stay readable.
     pub fn write(&mut self, frame: &Frame) -> Result<(), OutputError> {
+        let bytes = self.encode(frame)?;
+        self.store(frame, &bytes)
+    }
+
+    /// The bytes of a frame's file: the part of [`Series::write`] that computes.
+    ///
+    /// # Errors
+    /// [`OutputError::Inconsistent`] if an array does not fit the particles.
+    pub fn encode(&mut self, frame: &Frame) -> Result<Vec<u8>, OutputError> {
         frame.check()?;
+        let path = self.folder.join(file_name(self.times.len()));
+        self.encoder.encode(frame).map_err(|cause| OutputError::write(&path, cause))
+    }
+
+    /// Writes the bytes of the next frame and lists it: the part of [`Series::write`] that waits for the disk.
+    ///
+    /// # Errors
+    /// As [`Series::write`].
+    pub fn store(&mut self, frame: &Frame, bytes: &[u8]) -> Result<(), OutputError> {
         if let Some(&last) = self.times.last().filter(|&&last| last >= frame.time) {
             let problem =
                 format!("its time {} s is not after {last} s, that of the frame before", frame.time);
             return Err(OutputError::inconsistent(format!("frame {}", frame.step), problem));
         }
         let path = self.folder.join(file_name(self.times.len()));
-        let bytes = vtp::encode(frame).map_err(|cause| OutputError::write(&path, cause))?;
-        write_atomically(&path, &bytes)?;
+        write_atomically(&path, bytes)?;
         self.times.push(frame.time);
         write_atomically(&self.folder.join("particles.pvd"), self.list().as_bytes())
     }

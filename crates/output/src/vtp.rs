@@ -11,30 +11,113 @@
 //!
 //! Format: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
-use std::fmt::Write as _;
+use std::collections::HashMap;
 use std::io::{self, Write as _};
 
 use flate2::{Compression, write::ZlibEncoder};
+use rayon::prelude::*;
 
-use crate::{Array, Frame, Values};
+use crate::{Array, Frame, OutputError, Values};
 
 /// Bytes per zlib block before compression: a multiple of every number's size.
 const BLOCK: usize = 1 << 20;
 
-/// The bytes of the file.
-pub(crate) fn encode(frame: &Frame) -> io::Result<Vec<u8>> {
-    let mut appended = Appended::default();
-    let points = appended.array("Float64", "Points", 3, &le_bytes(frame.points.as_flattened()))?;
-    let points = format!("{points}/>");
-    let verts = vertices(&mut appended, frame.points.len())?;
-    let mut quantities = String::new();
-    for array in &frame.arrays {
-        quantities += &quantity(&mut appended, array)?;
+/// Size of the file of a frame, bytes.
+///
+/// # Errors
+/// If the numbers cannot be compressed.
+pub fn encoded_size(frame: &Frame) -> Result<usize, OutputError> {
+    let bytes = Encoder::default().encode(frame);
+    bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
+}
+
+/// Makes the bytes of files. Whole numbers (identities, cells) are mostly those of the frame before, so their
+/// compressed bytes are kept.
+#[derive(Debug, Default)]
+pub(crate) struct Encoder {
+    kept: HashMap<String, Kept>,
+}
+
+/// An array as it was, and compressed.
+#[derive(Debug, Default)]
+struct Kept {
+    plain: Vec<u8>,
+    compressed: Vec<u8>,
+}
+
+impl Encoder {
+    /// The bytes of the file; arrays are compressed in parallel.
+    pub(crate) fn encode(&mut self, frame: &Frame) -> io::Result<Vec<u8>> {
+        let arrays = arrays(frame);
+        let compressed: Vec<io::Result<Vec<u8>>> =
+            arrays.par_iter().map(|array| self.compressed(array)).collect();
+        let mut bytes = Vec::new();
+        let mut elements = Vec::with_capacity(arrays.len());
+        for (array, compressed) in arrays.into_iter().zip(compressed) {
+            let compressed = compressed?;
+            elements.push(array.element(bytes.len()));
+            bytes.extend_from_slice(&compressed);
+            if array.kind == "Int64" {
+                self.kept.insert(array.name, Kept { plain: array.bytes, compressed });
+            }
+        }
+        let [points, cells, others @ ..] = elements.as_slice() else { return Ok(bytes) };
+        let (offsets, quantities) =
+            others.split_first().map_or(("", [].as_slice()), |(o, q)| (o.as_str(), q));
+        let mut file = head(frame, points, &[cells, offsets].concat(), &quantities.concat()).into_bytes();
+        file.extend_from_slice(&bytes);
+        file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        Ok(file)
     }
-    let mut file = head(frame, &points, &verts, &quantities).into_bytes();
-    file.extend_from_slice(&appended.bytes);
-    file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-    Ok(file)
+
+    fn compressed(&self, array: &Plain) -> io::Result<Vec<u8>> {
+        match self.kept.get(&array.name) {
+            Some(kept) if kept.plain == array.bytes => Ok(kept.compressed.clone()),
+            _ => compress(&array.bytes),
+        }
+    }
+}
+
+/// An array before it is compressed.
+struct Plain {
+    kind: &'static str,
+    name: String,
+    components: usize,
+    /// What closes its XML element.
+    close: String,
+    bytes: Vec<u8>,
+}
+
+impl Plain {
+    /// The XML element that points at the numbers.
+    fn element(&self, offset: usize) -> String {
+        let Self { kind, name, components, close, .. } = self;
+        format!(
+            r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="appended" offset="{offset}"{close}"#
+        )
+    }
+}
+
+/// Positions, cells (particle `i` is vertex cell `i`), and all quantities.
+fn arrays(frame: &Frame) -> Vec<Plain> {
+    let n = frame.points.len() as i64;
+    let whole = |name: &str, first: i64| Plain {
+        kind: "Int64",
+        name: name.to_string(),
+        components: 1,
+        close: "/>\n".to_string(),
+        bytes: (first..first + n).flat_map(i64::to_le_bytes).collect(),
+    };
+    let points = Plain {
+        kind: "Float64",
+        name: "Points".to_string(),
+        components: 3,
+        close: "/>".to_string(),
+        bytes: frame.points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
+    };
+    let mut arrays = vec![points, whole("connectivity", 0), whole("offsets", 1)];
+    arrays.extend(frame.arrays.iter().map(quantity));
+    arrays
 }
 
 fn head(frame: &Frame, points: &str, verts: &str, quantities: &str) -> String {
@@ -62,64 +145,33 @@ _"#
     )
 }
 
-/// The cells: particle `i` is vertex cell `i`.
-fn vertices(appended: &mut Appended, n: usize) -> io::Result<String> {
-    let mut xml = String::new();
-    for (name, first) in [("connectivity", 0), ("offsets", 1)] {
-        let indices: Vec<u8> = (first..first + n as i64).flat_map(i64::to_le_bytes).collect();
-        let _ = writeln!(xml, "{}/>", appended.array("Int64", name, 1, &indices)?);
-    }
-    Ok(xml)
-}
-
-fn quantity(appended: &mut Appended, array: &Array) -> io::Result<String> {
+fn quantity(array: &Array) -> Plain {
     let (kind, bytes) = match &array.values {
         Values::F64(values) => ("Float32", values.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect()),
-        Values::I64(values) => ("Int64", values.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>()),
+        Values::I64(values) => ("Int64", values.iter().flat_map(|x| x.to_le_bytes()).collect()),
     };
-    let element = appended.array(kind, &escape(&array.name), array.components, &bytes)?;
     let unit = escape(&array.unit);
-    Ok(format!(
-        "{element}><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{unit}</InformationKey></DataArray>\n"
-    ))
+    let close = format!(
+        "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{unit}</InformationKey></DataArray>\n"
+    );
+    Plain { kind, name: escape(&array.name), components: array.components, close, bytes }
 }
 
-fn le_bytes(values: &[f64]) -> Vec<u8> {
-    values.iter().flat_map(|x| x.to_le_bytes()).collect()
-}
-
-/// The binary section as it grows.
-#[derive(Default)]
-struct Appended {
-    bytes: Vec<u8>,
-}
-
-impl Appended {
-    /// Appends the numbers and returns the XML element that points at them, still open.
-    fn array(&mut self, kind: &str, name: &str, components: usize, bytes: &[u8]) -> io::Result<String> {
-        let offset = self.bytes.len();
-        self.compress(bytes)?;
-        Ok(format!(
-            r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="appended" offset="{offset}""#
-        ))
+/// Number of blocks, block size, size of the last block if it is a part of one (else 0), compressed sizes;
+/// then the blocks.
+fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut header = vec![bytes.len().div_ceil(BLOCK), BLOCK, bytes.len() % BLOCK];
+    let mut body = Vec::new();
+    for block in bytes.chunks(BLOCK) {
+        let start = body.len();
+        let mut encoder = ZlibEncoder::new(&mut body, Compression::fast());
+        encoder.write_all(block)?;
+        encoder.finish()?;
+        header.push(body.len() - start);
     }
-
-    /// Number of blocks, block size, size of the last block if it is a part of one (else 0), compressed
-    /// sizes; then the blocks.
-    fn compress(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let mut header = vec![bytes.len().div_ceil(BLOCK), BLOCK, bytes.len() % BLOCK];
-        let mut body = Vec::new();
-        for block in bytes.chunks(BLOCK) {
-            let start = body.len();
-            let mut encoder = ZlibEncoder::new(&mut body, Compression::fast());
-            encoder.write_all(block)?;
-            encoder.finish()?;
-            header.push(body.len() - start);
-        }
-        self.bytes.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
-        self.bytes.append(&mut body);
-        Ok(())
-    }
+    let mut all: Vec<u8> = header.iter().flat_map(|&n| (n as u64).to_le_bytes()).collect();
+    all.append(&mut body);
+    Ok(all)
 }
 
 /// `text` as it may stand in XML; control characters, which XML forbids, become spaces.
@@ -148,16 +200,30 @@ mod tests {
     }
 
     #[test]
+    fn what_is_kept_from_the_frame_before_changes_no_file() {
+        let frame = |ids: Vec<i64>| Frame {
+            time: 0.0,
+            step: 0,
+            points: vec![[0.5; 3]; ids.len()],
+            arrays: vec![Array::scalar("ParticleId", "1", Values::I64(ids))],
+        };
+        let mut encoder = Encoder::default();
+        for ids in [vec![0, 1, 2], vec![0, 1, 2], vec![2, 1, 0], vec![0, 1], vec![]] {
+            let fresh = Encoder::default().encode(&frame(ids.clone())).unwrap();
+            assert_eq!(encoder.encode(&frame(ids)).unwrap(), fresh);
+        }
+    }
+
+    #[test]
     fn the_header_counts_full_and_partial_blocks() {
         for (length, expected) in
             [(0, [0, 0]), (5, [1, 5]), (BLOCK, [1, 0]), (BLOCK + 8, [2, 8]), (2 * BLOCK, [2, 0])]
         {
-            let mut appended = Appended::default();
-            appended.compress(&vec![7; length]).unwrap();
-            let number = |i: usize| u64::from_le_bytes(appended.bytes[8 * i..8 * i + 8].try_into().unwrap());
+            let bytes = compress(&vec![7; length]).unwrap();
+            let number = |i: usize| u64::from_le_bytes(bytes[8 * i..8 * i + 8].try_into().unwrap());
             assert_eq!([number(0), number(2)], expected, "{length} bytes");
             let blocks: u64 = (0..number(0)).map(|block| number(3 + block as usize)).sum();
-            assert_eq!(appended.bytes.len() as u64, 8 * (3 + number(0)) + blocks);
+            assert_eq!(bytes.len() as u64, 8 * (3 + number(0)) + blocks);
         }
     }
 }

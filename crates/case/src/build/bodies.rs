@@ -4,7 +4,6 @@ use super::shapes;
 use crate::{Body, Case, CaseError, Family, Fill, Place, ShapeSpec};
 use geometry::Shape;
 use taut::math::Vector;
-use taut::neighbours::{Adjacency, Search};
 use taut::simulation::Point;
 
 /// Points that share a solver: one total Lagrangian body, or all updated Lagrangian bodies.
@@ -106,35 +105,4 @@ pub fn initial<const D: usize>(case: &Case, groups: &mut [Group<'_, D>]) -> Resu
         }
     }
     Ok(())
-}
-
-/// What is doubtful about the particles: bodies that overlap at the start, bodies that will not see each other.
-pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if groups.len() > 1 {
-        warnings.push(
-            "bodies of different solvers do not touch each other: contact is between updated Lagrangian bodies only"
-                .to_string(),
-        );
-    }
-    let points: Vec<&Point<D>> = groups.iter().flat_map(|g| &g.points).collect();
-    let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
-    let mut list = Adjacency::default();
-    let found = Search::<D>::new().pairs(
-        std::array::from_fn(|i| columns[i].as_slice()),
-        0.5 * case.spacing,
-        None,
-        &mut list,
-    );
-    let overlaps =
-        |(a, p): (usize, &&Point<D>)| list.of(a).iter().any(|&b| points[b as usize].body != p.body);
-    if found.is_ok() {
-        let count = points.iter().enumerate().filter(|&p| overlaps(p)).count();
-        if count > 0 {
-            warnings.push(format!(
-                "{count} particles of different bodies are closer than half a spacing: the bodies overlap at the start"
-            ));
-        }
-    }
-    warnings
 }

@@ -103,9 +103,21 @@ fn pull<const D: usize>(
             } else {
                 point.force = vector(total(here.into_iter(), x, 0.0));
             }
+            if let Some(wrong) = absurd(&case.gravity, |(k, g)| acts(g, &regions[k], point), x) {
+                let field = wrong.acceleration.components.iter().find(|f| !f.eval(x, 0.0).is_finite());
+                let text = field.map_or("", FieldExpression::text);
+                let message = format!("`{text}` is not a number at {x:?} m when the run starts");
+                return Err(case.error_at(wrong.place, message, None));
+            }
         }
     }
     Ok(forces)
+}
+
+/// A body force that acts here and is no number at the start.
+fn absurd(gravity: &[Gravity], acts: impl Fn((usize, &Gravity)) -> bool, x: [f64; 3]) -> Option<&Gravity> {
+    let mut here = gravity.iter().enumerate().filter(|&(k, g)| acts((k, g))).map(|(_, g)| g);
+    here.find(|g| g.acceleration.eval(x, 0.0).iter().any(|a| !a.is_finite()))
 }
 
 fn total<'a>(fields: impl Iterator<Item = &'a VectorField>, x: [f64; 3], t: f64) -> [f64; 3] {

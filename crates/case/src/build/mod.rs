@@ -1,12 +1,18 @@
 //! From a checked case to a simulation: one match over formulations and materials, one over dimensions.
 
+mod afford;
 mod bodies;
+mod doubts;
 mod drives;
+mod gap;
 mod observe;
 mod shapes;
 mod solvers;
+mod thickness;
 
+pub use afford::{available_memory, reckon};
 pub use observe::{Observed, ProbePoint, Watch};
+pub(crate) use shapes::bounds;
 
 use crate::{Case, CaseError};
 use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
@@ -27,6 +33,8 @@ pub struct Built {
     pub numbers: Numbers,
     /// What is doubtful about the particles.
     pub warnings: Vec<String>,
+    /// Particles across the thinnest part of each body.
+    pub across: Vec<usize>,
 }
 
 impl Built {
@@ -52,6 +60,7 @@ fn in_dimension<const D: usize>(case: &Case, numbers: Numbers) -> Result<Built, 
 where
     Point<D>: InSpace,
 {
+    afford::check::<D>(case)?;
     let mut groups = bodies::groups::<D>(case)?;
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
@@ -60,6 +69,7 @@ where
     let drives = driven.drives();
     let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, &groups)?;
-    let warnings = bodies::warnings(case, &groups);
-    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings })
+    let across = thickness::across(case, &groups);
+    let warnings = doubts::warnings(case, &groups, &across);
+    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings, across })
 }

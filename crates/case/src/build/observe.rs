@@ -1,12 +1,12 @@
 //! Probes and disorder.
 
 use super::bodies::{Group, checked, padded, vector};
+use super::gap::Gap;
 use crate::{Case, CaseError, Quantity, Spot};
 use geometry::Shape;
 use taut::diagnostics::MaterialPoint;
 use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
 use taut::field;
-use taut::neighbours::{Adjacency, Search};
 use taut::simulation::{Point, Snapshot, Solver};
 
 /// Where a probe reads: weights of particles of one solver, by id.
@@ -91,27 +91,37 @@ pub struct Observed {
 
 /// The measure of disorder of a case, in whatever dimension.
 pub trait Watch: Send {
-    /// Measures the positions of a snapshot.
+    /// Measures the positions of a snapshot, and the gap between bodies if it is wanted.
     ///
     /// # Errors
     /// If positions are not numbers.
-    fn measure(&mut self, snapshot: &Snapshot) -> Result<Observed, DisorderError>;
+    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError>;
 
-    /// Deformation gradients by least squares, row by row, for formulations that have none.
-    ///
-    /// # Errors
-    /// If positions are not numbers.
-    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) -> Result<(), DisorderError>;
+    /// The deformation gradient of every particle, row by row: its own, or one by least squares for formulations that
+    /// have none (the identity where positions are not numbers).
+    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>);
 }
 
 /// The reference arrangement and room for positions.
 struct Arrangement<const D: usize> {
     reference: Reference<D>,
-    body: Vec<u32>,
     columns: [Vec<f64>; D],
-    reach: f64,
-    search: Search<D>,
-    pairs: Adjacency,
+    gap: Gap<D>,
+    /// The time of the state that was measured last, s.
+    measured: Option<f64>,
+}
+
+impl<const D: usize> Arrangement<D> {
+    /// Deformation gradients by least squares, from the measurement of this state if there was one; none where
+    /// positions are not numbers.
+    fn fitted(&mut self, snapshot: &Snapshot) -> &[[[f64; D]; D]] {
+        if self.measured == Some(snapshot.time) {
+            return self.reference.last_deformation();
+        }
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        self.reference.deformation(x).unwrap_or_default()
+    }
 }
 
 fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
@@ -122,41 +132,30 @@ fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
 }
 
 impl<const D: usize> Watch for Arrangement<D> {
-    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) -> Result<(), DisorderError> {
-        load(&mut self.columns, snapshot);
-        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
-        let unit = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
+    fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) {
         out.clear();
-        out.extend(self.reference.deformation(x)?.iter().map(|f| {
-            let component = |k: usize| if k / 3 < D && k % 3 < D { f[k / 3][k % 3] } else { unit(k) };
-            std::array::from_fn(component)
-        }));
-        Ok(())
+        out.extend_from_slice(&snapshot.deformation);
+        if out.iter().all(|f| *f != [0.0; 9]) {
+            return;
+        }
+        let fitted = self.fitted(snapshot);
+        let unit = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
+        for (i, out) in out.iter_mut().enumerate().filter(|(_, f)| **f == [0.0; 9]) {
+            let component = |k: usize| match fitted.get(i) {
+                Some(f) if k / 3 < D && k % 3 < D => f[k / 3][k % 3],
+                _ => unit(k),
+            };
+            *out = std::array::from_fn(component);
+        }
     }
 
-    fn measure(&mut self, snapshot: &Snapshot) -> Result<Observed, DisorderError> {
+    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
         let disorder = self.reference.measure(x)?;
-        let several = self.body.iter().any(|&b| b != self.body[0]);
-        if several {
-            self.search.pairs(x, self.reach, None, &mut self.pairs)?;
-        }
-        Ok(Observed { disorder, gap: several.then(|| self.gap()).flatten() })
-    }
-}
-
-impl<const D: usize> Arrangement<D> {
-    fn gap(&self) -> Option<f64> {
-        let square = |a: usize, b: usize| -> f64 { self.columns.iter().map(|c| (c[a] - c[b]).powi(2)).sum() };
-        let between = |a: usize| {
-            let mine = self.body[a];
-            self.pairs.of(a).iter().map(|&b| b as usize).filter(move |&b| self.body[b] != mine)
-        };
-        (0..self.body.len())
-            .flat_map(|a| between(a).map(move |b| square(a, b)))
-            .min_by(f64::total_cmp)
-            .map(f64::sqrt)
+        self.measured = Some(snapshot.time);
+        let gap = if gap { self.gap.smallest(x)? } else { None };
+        Ok(Observed { disorder, gap })
     }
 }
 
@@ -173,13 +172,7 @@ pub fn disorder<const D: usize>(
     let x: [&[f64]; D] = std::array::from_fn(|i| columns[i].as_slice());
     let reference = Reference::new(x, &body, &spacing, support)
         .map_err(|error| case.error_at(case.bodies[0].place, error.to_string(), None))?;
-    let arrangement = Arrangement {
-        reference,
-        body: body.clone(),
-        columns,
-        reach: 2.0 * support,
-        search: Search::new(),
-        pairs: Adjacency::default(),
-    };
+    let arrangement =
+        Arrangement { reference, columns, gap: Gap::new(body.clone(), 2.0 * support), measured: None };
     Ok((Box::new(arrangement), body))
 }

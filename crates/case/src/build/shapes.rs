@@ -39,3 +39,8 @@ pub fn shape(spec: &ShapeSpec) -> Shape {
         }
     }
 }
+
+/// Lengths of the edges of the box around a shape, m.
+pub fn bounds(spec: &ShapeSpec) -> [f64; 3] {
+    shape(spec).bounds().extent()
+}

@@ -8,8 +8,8 @@ use super::scope::Scope;
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{body as keys, fill};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Node, Section, Value};
 
 /// A deformable body.
@@ -55,13 +55,13 @@ pub(crate) struct BodyReader<'a, 'b> {
 impl BodyReader<'_, '_> {
     /// One body; what is wrong with it is noted.
     pub(crate) fn read(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Body> {
-        section.only(&["name", "material", "shape", "fill", "velocity", "formulation"], problems);
+        section.only(keys::TABLE.keys, problems);
         let name = problems.keep(part_name(section));
         let material = problems.keep(self.material(section));
-        let shape = problems.keep(section.need("shape").and_then(|node| self.shapes.shape(node)));
-        let fill = problems.keep(self.fill(section.get("fill")));
-        let velocity = problems.keep(self.velocity(section.get("velocity")));
-        let own = problems.keep(section.get("formulation").map(read_formulation).transpose())?;
+        let shape = problems.keep(section.need(keys::SHAPE.name).and_then(|node| self.shapes.shape(node)));
+        let fill = problems.keep(self.fill(section.get(keys::FILL.name)));
+        let velocity = problems.keep(self.velocity(section.get(keys::VELOCITY.name)));
+        let own = problems.keep(section.get(keys::FORMULATION.name).map(read_formulation).transpose())?;
         Some(Body {
             name: name?.to_string(),
             material: material?,
@@ -74,21 +74,21 @@ impl BodyReader<'_, '_> {
     }
 
     fn material(&self, section: &Section<'_>) -> Result<String, Diagnostic> {
-        let at = find(section.need("material")?, "material", self.materials)?;
+        let at = find(section.need(keys::MATERIAL.name)?, "material", self.materials)?;
         Ok(self.materials[at].unwrap_or_default().to_string())
     }
 
     fn fill(&self, node: Option<&Node>) -> Result<Fill, Diagnostic> {
         let Some(node) = node else { return Ok(Fill::Lattice { origin: [0.0; 3] }) };
         match &node.value {
-            Value::Text(name) if name == "lattice" => Ok(Fill::Lattice { origin: [0.0; 3] }),
-            Value::Text(name) if name == "concentric" => Ok(Fill::Concentric),
+            Value::Text(name) if name == fill::LATTICE => Ok(Fill::Lattice { origin: [0.0; 3] }),
+            Value::Text(name) if name == fill::CONCENTRIC => Ok(Fill::Concentric),
             Value::Table(_) => {
-                let fill = Section::of(node, "`fill`")?;
-                fill.only_first(&["lattice"])?;
-                let lattice = Section::of(fill.need("lattice")?, "the fill `lattice`")?;
-                lattice.only_first(&["origin"])?;
-                let origin = self.scope.vector(lattice.need("origin")?, "`origin`", Dimension::LENGTH)?;
+                let table = Section::of(node, "`fill`")?;
+                table.only_first(&[fill::LATTICE])?;
+                let lattice = Section::of(table.need(fill::LATTICE)?, "the fill `lattice`")?;
+                lattice.only_first(&[fill::ORIGIN.name])?;
+                let origin = self.scope.vector(lattice.need(fill::ORIGIN.name)?, &fill::ORIGIN)?;
                 Ok(Fill::Lattice { origin })
             }
             _ => Err(Diagnostic::at(node.place, format!("unknown fill, found {}", node.found()))
@@ -97,6 +97,9 @@ impl BodyReader<'_, '_> {
     }
 
     fn velocity(&self, node: Option<&Node>) -> Result<VectorField, Diagnostic> {
-        node.map_or_else(|| Ok(VectorField::default()), |node| start_velocity(self.scope, node))
+        node.map_or_else(
+            || Ok(VectorField::default()),
+            |node| start_velocity(self.scope, node, &keys::VELOCITY),
+        )
     }
 }

@@ -49,3 +49,41 @@ pub(crate) const FRAMES: f64 = 50.0;
 
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::{Key, Need, Words, case, probe, time};
+
+    /// What holds by default, as the table of keys says it.
+    fn said(key: &Key) -> &'static str {
+        match key.need {
+            Need::Default(text) => text,
+            _ => "",
+        }
+    }
+
+    fn word<T: Words + PartialEq>(thing: T) -> &'static str {
+        super::super::choices::word(thing)
+    }
+
+    #[test]
+    fn the_table_of_keys_says_the_same() {
+        let (total, updated) = (Formulation::TlHourglassFree, Formulation::UlNonHourglass);
+        let both = |of: fn(Formulation) -> f64| {
+            format!("{} total Lagrangian, {} updated Lagrangian", of(total), of(updated))
+        };
+        assert_eq!(said(&case::SMOOTHING), both(smoothing));
+        assert_eq!(said(&time::CFL), both(cfl));
+        assert_eq!(said(&case::FORMULATION), word(FORMULATION));
+        assert_eq!(said(&case::PLANE), format!("{}, in 2D", word(PLANE)));
+        assert_eq!(said(&case::KERNEL), word(KERNEL));
+        assert_eq!(said(&time::STEP), word(STEP));
+        assert_eq!(said(&case::REFERENCE_SPEED), REFERENCE_SPEED.to_string());
+        assert_eq!(said(&time::OUTPUT), format!("end/{FRAMES}"));
+        assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
+        let nested = Formulation::UlNested;
+        let stepped = format!("{}; {} for ul-nested", word(stepping(updated)), word(stepping(nested)));
+        assert_eq!(said(&case::STEPPING), stepped);
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::scope::Scope;
 use crate::diagnostic::Diagnostic;
-use crate::units::Dimension;
+use crate::keys::{self, material::ELASTIC};
 use crate::written::{Node, Section};
 
 /// Four constants, two of them independent.
@@ -19,13 +19,10 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    pub(super) const KEYS: [&'static str; 4] =
-        ["youngs_modulus", "poisson_ratio", "bulk_modulus", "shear_modulus"];
-
     /// From the two constants that a material gives.
     pub(super) fn read(section: &Section<'_>, scope: &Scope) -> Result<Self, Diagnostic> {
         let given: Vec<(usize, &Node)> =
-            Self::KEYS.iter().enumerate().filter_map(|(i, key)| Some((i, section.get(key)?))).collect();
+            ELASTIC.iter().enumerate().filter_map(|(i, key)| Some((i, section.get(key.name)?))).collect();
         let [(i, first), (j, second)] = given.as_slice() else {
             return Err(wrong_count(section, &given));
         };
@@ -68,24 +65,21 @@ impl Elastic {
 }
 
 fn constant(scope: &Scope, number: usize, node: &Node) -> Result<f64, Diagnostic> {
-    let what = format!("`{}`", Elastic::KEYS[number]);
-    match number {
-        1 => {
-            let nu = scope.number(node, &what, Dimension::NUMBER)?;
-            let sane =
-                Elastic { youngs_modulus: 1.0, poisson_ratio: nu, bulk_modulus: 1.0, shear_modulus: 1.0 };
-            sane.check(node).map(|()| nu)
-        }
-        _ => scope.positive(node, &what, Dimension::PRESSURE),
+    let value = scope.of(node, &ELASTIC[number])?;
+    if number == 1 {
+        let sane =
+            Elastic { youngs_modulus: 1.0, poisson_ratio: value, bulk_modulus: 1.0, shear_modulus: 1.0 };
+        sane.check(node)?;
     }
+    Ok(value)
 }
 
 fn wrong_count(section: &Section<'_>, given: &[(usize, &Node)]) -> Diagnostic {
-    let names: Vec<&str> = given.iter().map(|(i, _)| Elastic::KEYS[*i]).collect();
+    let names: Vec<&str> = given.iter().map(|(i, _)| ELASTIC[*i].name).collect();
     let found = if names.is_empty() { "none".to_string() } else { names.join(", ") };
     let place = if given.len() > 2 { given[given.len() - 1].1.place } else { section.place };
     Diagnostic::at(place, format!("{} needs exactly two elastic constants, found {found}", section.title))
-        .help(format!("give two of {}", Elastic::KEYS.join(", ")))
+        .help(format!("give two of {}", keys::names(&ELASTIC).join(", ")))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! `--formulation NAME`: one formulation for every body, whatever the file says.
 
 use super::choices::{Family, Formulation};
+use crate::keys::Words;
 use crate::source::{Place, Sources};
 use crate::written::{Node, Table, Value};
 
@@ -23,7 +24,7 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
             }
         }
     }
-    match Formulation::NAMES.iter().find(|(n, _)| *n == name).map(|(_, f)| f.family()) {
+    match Formulation::WORDS.iter().find(|(n, ..)| *n == name).map(|(_, f, _)| f.family()) {
         Some(Family::Total) => {
             root.remove("stepping");
             root.remove("reference_speed");

@@ -3,6 +3,7 @@
 use super::choices::{Kernel, Plane};
 use super::defaults;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{Words, case as keys};
 use crate::written::{Node, Section, Value, choice, text};
 
 /// What the case says before any number.
@@ -18,13 +19,14 @@ pub(super) struct Head {
 
 /// The head; what is wrong is noted. `None` without a dimension: nothing else can be read then.
 pub(super) fn head(top: &Section<'_>, problems: &mut Problems) -> Option<Head> {
-    let name = problems.keep(top.need("name").and_then(case_name)).unwrap_or_default();
-    let title = top.get("title").map(|node| text(node, "title")).transpose();
+    let name = problems.keep(top.need(keys::NAME.name).and_then(case_name)).unwrap_or_default();
+    let title = top.get(keys::TITLE.name).map(|node| text(node, "title")).transpose();
     let title = problems.keep(title).flatten().unwrap_or(name);
-    let kernel = top.get("kernel").map(|node| choice(node, "kernel", Kernel::NAMES)).transpose();
+    let kernel =
+        top.get(keys::KERNEL.name).map(|node| choice(node, keys::KERNEL.name, Kernel::WORDS)).transpose();
     let kernel = problems.keep(kernel).flatten().unwrap_or(defaults::KERNEL);
-    let dimension = problems.keep(top.need("dimension").and_then(dimension))?;
-    let plane = problems.keep(plane(top.get("plane"), dimension)).flatten();
+    let dimension = problems.keep(top.need(keys::DIMENSION.name).and_then(dimension))?;
+    let plane = problems.keep(plane(top.get(keys::PLANE.name), dimension)).flatten();
     Some(Head { name: name.to_string(), title: title.to_string(), dimension, plane, kernel })
 }
 
@@ -59,5 +61,5 @@ fn plane(node: Option<&Node>, dimension: usize) -> Result<Option<Plane>, Diagnos
         )
         .help("there are \"strain\" and \"papers\""));
     }
-    choice(node, "plane", Plane::NAMES).map(Some)
+    choice(node, keys::PLANE.name, Plane::WORDS).map(Some)
 }

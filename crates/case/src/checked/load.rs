@@ -3,12 +3,12 @@
 use super::choices::Axis;
 use super::field::{FieldExpression, VectorField};
 use super::names::find;
-use super::scope::Scope;
+use super::scope::{Scope, place_of};
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{Key, Words, boundary, gravity, initial};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Node, Section, Value, choice};
 
 /// Particles whose motion is prescribed.
@@ -61,9 +61,9 @@ pub struct Gravity {
     pub body: Option<usize>,
     /// Particles whose reference position is in here; `None` for all.
     pub region: Option<ShapeSpec>,
+    /// Its header in the case file.
+    pub place: Place,
 }
-
-const KINDS: [&str; 4] = ["fixed", "fix", "velocity", "displacement"];
 
 /// What loads are read with.
 pub(crate) struct LoadReader<'a, 'b> {
@@ -76,10 +76,11 @@ pub(crate) struct LoadReader<'a, 'b> {
 impl LoadReader<'_, '_> {
     /// One boundary.
     pub(crate) fn boundary(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Boundary> {
-        section.only(&["body", "region", "except", KINDS[0], KINDS[1], KINDS[2], KINDS[3]], problems);
+        section.only(boundary::TABLE.keys, problems);
         let body = problems.keep(self.body(section));
-        let region = problems.keep(section.need("region").and_then(|node| self.shapes.shape(node)));
-        let except = problems.keep(self.shape(section, "except"));
+        let region =
+            problems.keep(section.need(boundary::REGION.name).and_then(|node| self.shapes.shape(node)));
+        let except = problems.keep(self.shape(section, boundary::EXCEPT.name));
         let constraint = problems.keep(self.constraint(section));
         let place = section.place;
         Some(Boundary { body: body?, region: region?, except: except?, constraint: constraint?, place })
@@ -87,24 +88,26 @@ impl LoadReader<'_, '_> {
 
     /// One body force.
     pub(crate) fn gravity(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Gravity> {
-        section.only(&["acceleration", "body", "region"], problems);
+        section.only(gravity::TABLE.keys, problems);
         let body = problems.keep(self.body(section));
-        let region = problems.keep(self.shape(section, "region"));
+        let region = problems.keep(self.shape(section, gravity::REGION.name));
         let acceleration = problems.keep(
             section
-                .need("acceleration")
-                .and_then(|node| self.scope.vector_field(node, "`acceleration`", Dimension::ACCELERATION)),
+                .need(gravity::ACCELERATION.name)
+                .and_then(|node| self.scope.vector_field(node, &gravity::ACCELERATION)),
         );
-        Some(Gravity { acceleration: acceleration?, body: body?, region: region? })
+        Some(Gravity { acceleration: acceleration?, body: body?, region: region?, place: section.place })
     }
 
     /// One velocity at the start.
     pub(crate) fn initial(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Initial> {
-        section.only(&["region", "body", "velocity"], problems);
+        section.only(initial::TABLE.keys, problems);
         let body = problems.keep(self.body(section));
-        let region = problems.keep(section.need("region").and_then(|node| self.shapes.shape(node)));
+        let region =
+            problems.keep(section.need(initial::REGION.name).and_then(|node| self.shapes.shape(node)));
+        let velocity = section.need(initial::VELOCITY.name);
         let velocity =
-            problems.keep(section.need("velocity").and_then(|node| start_velocity(self.scope, node)));
+            problems.keep(velocity.and_then(|n| start_velocity(self.scope, n, &initial::VELOCITY)));
         Some(Initial { velocity: velocity?, body: body?, region: region?, place: section.place })
     }
 
@@ -118,23 +121,19 @@ impl LoadReader<'_, '_> {
 
     fn constraint(&self, section: &Section<'_>) -> Result<Constraint, Diagnostic> {
         let given: Vec<(&str, &Node)> =
-            KINDS.iter().filter_map(|kind| Some((*kind, section.get(kind)?))).collect();
+            boundary::CONSTRAINTS.iter().filter_map(|key| Some((key.name, section.get(key.name)?))).collect();
         match given.as_slice() {
             [("fixed", node)] => fixed(node),
             [("fix", node)] => self.fix(node),
-            [("velocity", node)] => {
-                Ok(Constraint::Velocity(self.per_axis(node, "`velocity`", Dimension::SPEED)?))
-            }
-            [(_, node)] => {
-                Ok(Constraint::Displacement(self.per_axis(node, "`displacement`", Dimension::LENGTH)?))
-            }
+            [("velocity", node)] => Ok(Constraint::Velocity(self.per_axis(node, &boundary::CONSTRAINTS[2])?)),
+            [(_, node)] => Ok(Constraint::Displacement(self.per_axis(node, &boundary::CONSTRAINTS[3])?)),
             _ => Err(wrong_count(section, &given)),
         }
     }
 
     /// The axes that a list names.
     fn fix(&self, node: &Node) -> Result<Constraint, Diagnostic> {
-        let axes = &Axis::NAMES[..self.scope.dimension];
+        let axes = &Axis::WORDS[..self.scope.dimension];
         let mut fixed = [false; 3];
         match &node.value {
             Value::Array(items) if !items.is_empty() => {
@@ -152,22 +151,17 @@ impl LoadReader<'_, '_> {
     }
 
     /// An expression or "free" per axis.
-    fn per_axis(
-        &self,
-        node: &Node,
-        what: &str,
-        dimension: Dimension,
-    ) -> Result<[Option<FieldExpression>; 3], Diagnostic> {
+    fn per_axis(&self, node: &Node, key: &Key) -> Result<[Option<FieldExpression>; 3], Diagnostic> {
         let mut fields = [None, None, None];
-        for (i, item) in self.scope.components(node, what)?.iter().enumerate() {
+        for (i, item) in self.scope.components(node, key)?.iter().enumerate() {
             if !matches!(&item.value, Value::Text(text) if text == "free") {
-                fields[i] = Some(self.scope.field(item, what, dimension)?);
+                fields[i] = Some(self.scope.field(item, key)?);
             }
         }
         if fields.iter().all(Option::is_none) {
             return Err(Diagnostic::at(
                 node.place,
-                format!("{what} leaves every axis free, so it prescribes nothing"),
+                format!("`{}` leaves every axis free, so it prescribes nothing", key.name),
             ));
         }
         Ok(fields)
@@ -175,11 +169,15 @@ impl LoadReader<'_, '_> {
 }
 
 /// A velocity that belongs to the start, so that it cannot use `t`.
-pub(crate) fn start_velocity(scope: &Scope, node: &Node) -> Result<VectorField, Diagnostic> {
-    let velocity = scope.vector_field(node, "`velocity`", Dimension::SPEED)?;
-    if velocity.depends_on_time() {
-        return Err(Diagnostic::at(node.place, "this velocity is that of the start, it cannot use `t`")
-            .help("prescribe a velocity that changes with time in a [[boundary]]"));
+pub(crate) fn start_velocity(scope: &Scope, node: &Node, key: &Key) -> Result<VectorField, Diagnostic> {
+    let velocity = scope.vector_field(node, key)?;
+    if let Some(axis) = velocity.components.iter().position(|c| c.depends_on_time()) {
+        let component = &scope.components(node, key)?[axis];
+        return Err(Diagnostic::at(
+            place_of(component, "t"),
+            "this velocity is that of the start, it cannot use `t`",
+        )
+        .help("prescribe a velocity that changes with time in a [[boundary]]"));
     }
     Ok(velocity)
 }

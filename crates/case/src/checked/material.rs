@@ -1,10 +1,11 @@
 //! `[material.NAME]`.
 
+use super::choices::word;
 use super::elastic::Elastic;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{Words, material as keys};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Section, Table, choice, named};
 
 /// What a body is made of.
@@ -22,6 +23,14 @@ pub struct Material {
     pub place: Place,
 }
 
+impl Material {
+    /// Speed of the longitudinal wave, sqrt((K + 4G/3)/rho), m/s.
+    pub fn wave_speed(&self) -> f64 {
+        let e = &self.elastic;
+        ((e.bulk_modulus + e.shear_modulus * 4.0 / 3.0) / self.density).sqrt()
+    }
+}
+
 /// A law of stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Model {
@@ -35,22 +44,27 @@ pub enum Model {
     LinearElastic,
 }
 
-impl Model {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("neo-hookean", Self::NeoHookean),
-        ("neo-hookean-log", Self::NeoHookeanLog),
-        ("saint-venant-kirchhoff", Self::SaintVenantKirchhoff),
-        ("linear-elastic", Self::LinearElastic),
+impl Words for Model {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        ("neo-hookean", Self::NeoHookean, "neo-Hookean with the volume part K/2 (J^2 - 1): rubber"),
+        ("neo-hookean-log", Self::NeoHookeanLog, "neo-Hookean with the volume part lambda ln J"),
+        (
+            "saint-venant-kirchhoff",
+            Self::SaintVenantKirchhoff,
+            "linear in the Green-Lagrange strain: large turns, small strains",
+        ),
+        (
+            "linear-elastic",
+            Self::LinearElastic,
+            "linear in the rate of deformation: what updated Lagrangian formulations take",
+        ),
     ];
+}
 
+impl Model {
     /// The name in case files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::NeoHookean => "neo-hookean",
-            Self::NeoHookeanLog => "neo-hookean-log",
-            Self::SaintVenantKirchhoff => "saint-venant-kirchhoff",
-            Self::LinearElastic => "linear-elastic",
-        }
+        word(self)
     }
 }
 
@@ -69,15 +83,12 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Vec<
 }
 
 fn material(name: &str, section: &Section<'_>, scope: &Scope, problems: &mut Problems) -> Option<Material> {
-    let moduli = Elastic::KEYS;
-    section.only(&["model", "density", moduli[0], moduli[1], moduli[2], moduli[3]], problems);
-    let model = problems.keep(section.need("model").and_then(|node| {
-        let model = choice(node, "model", Model::NAMES)?;
+    section.only(keys::TABLE.keys, problems);
+    let model = problems.keep(section.need(keys::MODEL.name).and_then(|node| {
+        let model = choice(node, keys::MODEL.name, Model::WORDS)?;
         Ok((model, node.place))
     }));
-    let density =
-        section.need("density").and_then(|node| scope.positive(node, "`density`", Dimension::DENSITY));
-    let density = problems.keep(density);
+    let density = problems.keep(scope.need(section, &keys::DENSITY));
     let elastic = problems.keep(Elastic::read(section, scope));
     let (model, place) = model?;
     Some(Material { name: name.to_string(), model, density: density?, elastic: elastic?, place })

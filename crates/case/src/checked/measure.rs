@@ -1,10 +1,11 @@
 //! `[[measure]]`: named results.
 
-use super::choices::Axis;
+use super::choices::{Axis, word};
 use super::names::{find, part_name};
 use super::probe::{Probe, Quantity};
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{Key, Words, measure as keys};
 use crate::units::Dimension;
 use crate::written::{Section, Value, choice};
 
@@ -83,20 +84,65 @@ pub enum Extremum {
     Maximum,
 }
 
-const KINDS: &[(&str, &[&str])] = &[
-    ("second-crossing", CURVE),
-    ("first-crossing", CURVE),
-    ("maximum", CURVE),
-    ("minimum", CURVE),
-    ("turning-points", &["name", "kind", "probe", "component", "extremum", "prominence", "index"]),
-    ("value-at", &["name", "kind", "probe", "component", "time"]),
-    ("most-turns", &["name", "kind", "probe", "axis"]),
-    ("kinetic-ratio", &["name", "kind"]),
-    ("contact-start", &["name", "kind"]),
-    ("rebound-speed", &["name", "kind", "body"]),
-];
+impl Words for Extremum {
+    const WORDS: &'static [(&'static str, Self, &'static str)] =
+        &[("minimum", Self::Minimum, "lowest points"), ("maximum", Self::Maximum, "highest points")];
+}
 
-const CURVE: &[&str] = &["name", "kind", "probe", "component"];
+/// Kinds of measures, as a case names them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Measured {
+    SecondCrossing,
+    FirstCrossing,
+    Maximum,
+    Minimum,
+    TurningPoints,
+    ValueAt,
+    MostTurns,
+    KineticRatio,
+    ContactStart,
+    ReboundSpeed,
+}
+
+impl Words for Measured {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        (
+            "second-crossing",
+            Self::SecondCrossing,
+            "time of the second zero crossing after the start: a period, for a curve that starts at zero",
+        ),
+        ("first-crossing", Self::FirstCrossing, "time of the first zero crossing after the start"),
+        ("maximum", Self::Maximum, "largest value, and when"),
+        ("minimum", Self::Minimum, "smallest value, and when"),
+        ("turning-points", Self::TurningPoints, "a minimum or maximum by its number"),
+        ("value-at", Self::ValueAt, "the value at a time"),
+        (
+            "most-turns",
+            Self::MostTurns,
+            "most turns of a probe around an axis through the origin, counted from where it starts",
+        ),
+        ("kinetic-ratio", Self::KineticRatio, "kinetic energy at the end over that at the start"),
+        ("contact-start", Self::ContactStart, "time of the first contact of two bodies"),
+        ("rebound-speed", Self::ReboundSpeed, "speed of the centre of mass of a body at the end"),
+    ];
+}
+
+impl Measured {
+    /// The keys of this kind, besides name and kind.
+    pub(crate) fn keys(self) -> &'static [Key] {
+        const CURVE: &[Key] = &[keys::PROBE, keys::COMPONENT];
+        const TURNING: &[Key] =
+            &[keys::PROBE, keys::COMPONENT, keys::EXTREMUM, keys::PROMINENCE, keys::INDEX];
+        match self {
+            Self::SecondCrossing | Self::FirstCrossing | Self::Maximum | Self::Minimum => CURVE,
+            Self::TurningPoints => TURNING,
+            Self::ValueAt => const { &[keys::PROBE, keys::COMPONENT, keys::TIME] },
+            Self::MostTurns => const { &[keys::PROBE, keys::AXIS] },
+            Self::KineticRatio | Self::ContactStart => &[],
+            Self::ReboundSpeed => const { &[keys::BODY] },
+        }
+    }
+}
 
 /// What measures are read with.
 pub(crate) struct MeasureReader<'a> {
@@ -112,69 +158,70 @@ impl MeasureReader<'_> {
     /// One measure.
     pub(crate) fn read(&self, section: &Section<'_>, problems: &mut Problems) -> Option<Measure> {
         let name = problems.keep(part_name(section));
-        let kinds: Vec<(&str, usize)> = KINDS.iter().enumerate().map(|(i, (name, _))| (*name, i)).collect();
-        let kind = problems.keep(section.need("kind").and_then(|node| choice(node, "kind", &kinds)))?;
-        let (kind_name, keys) = KINDS[kind];
-        let titled = Section { title: format!("{} of kind `{kind_name}`", section.title), ..section.clone() };
-        titled.only(keys, problems);
-        let kind = problems.keep(self.kind(kind_name, &titled));
+        let kind = section.need(keys::KIND.name);
+        let kind = problems.keep(kind.and_then(|node| choice(node, keys::KIND.name, Measured::WORDS)))?;
+        let title = format!("{} of kind `{}`", section.title, word(kind));
+        let titled = Section { title, ..section.clone() };
+        let allowed: Vec<Key> = [keys::NAME, keys::KIND].iter().chain(kind.keys()).copied().collect();
+        titled.only(&allowed, problems);
+        let kind = problems.keep(self.kind(kind, &titled));
         Some(Measure { name: name?.to_string(), kind: kind? })
     }
 
-    fn kind(&self, kind: &str, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
+    fn kind(&self, kind: Measured, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
         match kind {
-            "kinetic-ratio" => Ok(MeasureKind::KineticRatio),
-            "most-turns" => self.most_turns(section),
-            "contact-start" => Ok(MeasureKind::ContactStart),
-            "rebound-speed" => {
-                Ok(MeasureKind::ReboundSpeed { body: find(section.need("body")?, "body", self.bodies)? })
+            Measured::MostTurns => self.most_turns(section),
+            Measured::KineticRatio => Ok(MeasureKind::KineticRatio),
+            Measured::ContactStart => Ok(MeasureKind::ContactStart),
+            Measured::ReboundSpeed => {
+                let body = find(section.need(keys::BODY.name)?, keys::BODY.name, self.bodies)?;
+                Ok(MeasureKind::ReboundSpeed { body })
             }
             _ => {
-                let probe = find(section.need("probe")?, "probe", self.probes)?;
-                let axes = &Axis::NAMES[..self.scope.dimension];
-                let axis = choice(section.need("component")?, "component", axes)?;
+                let probe = find(section.need(keys::PROBE.name)?, keys::PROBE.name, self.probes)?;
+                let axes = &Axis::WORDS[..self.scope.dimension];
+                let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
                 Ok(MeasureKind::Probe { probe, axis, feature: self.feature(kind, probe, section)? })
             }
         }
     }
 
-    fn feature(&self, kind: &str, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {
+    fn feature(&self, kind: Measured, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {
         Ok(match kind {
-            "first-crossing" => Feature::FirstCrossing,
-            "second-crossing" => Feature::SecondCrossing,
-            "maximum" => Feature::Maximum,
-            "minimum" => Feature::Minimum,
-            "value-at" => Feature::ValueAt {
-                time: self.scope.not_negative(section.need("time")?, "`time`", Dimension::TIME)?,
-            },
+            Measured::FirstCrossing => Feature::FirstCrossing,
+            Measured::SecondCrossing => Feature::SecondCrossing,
+            Measured::Maximum => Feature::Maximum,
+            Measured::Minimum => Feature::Minimum,
+            Measured::ValueAt => Feature::ValueAt { time: self.scope.need(section, &keys::TIME)? },
             _ => self.turning_point(probe, section)?,
         })
     }
 
     fn most_turns(&self, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
-        let node = section.need("probe")?;
-        let probe = find(node, "probe", self.probes)?;
+        let node = section.need(keys::PROBE.name)?;
+        let probe = find(node, keys::PROBE.name, self.probes)?;
         if self.checked.get(probe).is_some_and(|p| p.quantity != Quantity::Position) {
             let message = "turns are counted of a probe that records positions";
             return Err(Diagnostic::at(node.place, message).help("give the probe quantity = \"position\""));
         }
         // In the plane there is one axis to go around.
-        let axes = &Axis::NAMES[if self.scope.dimension == 2 { 2 } else { 0 }..];
-        Ok(MeasureKind::MostTurns { probe, axis: choice(section.need("axis")?, "axis", axes)? })
+        let axes = &Axis::WORDS[if self.scope.dimension == 2 { 2 } else { 0 }..];
+        let axis = choice(section.need(keys::AXIS.name)?, keys::AXIS.name, axes)?;
+        Ok(MeasureKind::MostTurns { probe, axis })
     }
 
     fn turning_point(&self, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {
-        let extrema = [("minimum", Extremum::Minimum), ("maximum", Extremum::Maximum)];
-        let extremum = choice(section.need("extremum")?, "extremum", &extrema)?;
+        let extremum = choice(section.need(keys::EXTREMUM.name)?, keys::EXTREMUM.name, Extremum::WORDS)?;
         let dimension = self.checked.get(probe).map_or(Dimension::LENGTH, |p| p.quantity.dimension());
-        let prominence = self.scope.positive(section.need("prominence")?, "`prominence`", dimension)?;
+        let prominence =
+            self.scope.positive(section.need(keys::PROMINENCE.name)?, "`prominence`", dimension)?;
         Ok(Feature::TurningPoint { extremum, prominence, index: index(section)? })
     }
 }
 
 /// Which turning point, counted from 1.
 fn index(section: &Section<'_>) -> Result<usize, Diagnostic> {
-    let node = section.need("index")?;
+    let node = section.need(keys::INDEX.name)?;
     let index = match node.value {
         Value::Integer(index) => usize::try_from(index).ok().filter(|index| *index >= 1),
         _ => None,

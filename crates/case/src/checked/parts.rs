@@ -7,6 +7,7 @@ use super::load::{Boundary, Gravity, Initial, LoadReader};
 use super::material::{self, Material};
 use super::measure::{Measure, MeasureReader};
 use super::names::part_names;
+use super::plausible;
 use super::probe::{self, Probe};
 use super::scheme::Schemes;
 use super::scope::Scope;
@@ -31,8 +32,11 @@ pub(super) struct Parts {
 
 impl Parts {
     /// What is legal but doubtful.
-    pub(super) fn warnings(&self, plane: Option<Plane>) -> Vec<Diagnostic> {
-        compatible::warnings(&self.bodies, &self.materials, plane)
+    pub(super) fn warnings(&self, root: &Table, plane: Option<Plane>) -> Vec<Diagnostic> {
+        let mut warnings = plausible::materials(root, &self.materials);
+        warnings.extend(plausible::angles(root));
+        warnings.extend(compatible::warnings(&self.bodies, &self.materials, plane));
+        warnings
     }
 }
 
@@ -44,7 +48,10 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let regions = shapes.all_regions(problems);
     let (body_sections, body_names) = named_list(root, "body", problems);
     let bodies = bodies(root, &body_sections, (&mut shapes, &schemes), problems);
-    compatible::check(&bodies, &materials, problems);
+    // A wrong name is told where it stands; what its default does not go with is nobody's mistake.
+    if schemes.known {
+        compatible::check(&bodies, &materials, problems);
+    }
     let mut loads = LoadReader { scope, shapes: &mut shapes, bodies: &body_names };
     let boundaries = list(root, "boundary", problems);
     let boundaries = boundaries.iter().filter_map(|s| loads.boundary(s, problems)).collect();
@@ -94,7 +101,7 @@ fn bodies<'a>(
     };
     let mut reader = BodyReader { scope: shapes.scope, shapes, schemes, materials: &materials };
     let bodies: Vec<Body> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
-    if bodies.len() == sections.len() && !bodies.is_empty() {
+    if schemes.known && bodies.len() == sections.len() && !bodies.is_empty() {
         schemes.refuse_useless(&bodies, problems);
     }
     bodies

@@ -5,6 +5,7 @@ use super::names::{find, part_name};
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{Words, probe as keys};
 use crate::source::Place;
 use crate::units::Dimension;
 use crate::written::{Section, choice};
@@ -46,10 +47,15 @@ pub enum Quantity {
     Velocity,
 }
 
-impl Quantity {
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("displacement", Self::Displacement), ("position", Self::Position), ("velocity", Self::Velocity)];
+impl Words for Quantity {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        ("displacement", Self::Displacement, "present minus reference position, m"),
+        ("position", Self::Position, "present position, m"),
+        ("velocity", Self::Velocity, "velocity, m/s"),
+    ];
+}
 
+impl Quantity {
     /// What its numbers are: lengths or speeds.
     pub fn dimension(self) -> Dimension {
         match self {
@@ -67,15 +73,14 @@ pub(crate) fn read(
     problems: &mut Problems,
 ) -> Option<Probe> {
     let scope = shapes.scope;
-    section.only(&["name", "at", "region", "body", "quantity", "interval"], problems);
+    section.only(keys::TABLE.keys, problems);
     let name = problems.keep(part_name(section));
     let spot = problems.keep(spot(section, shapes));
     let body = problems.keep(body(section, bodies));
-    let quantity = section.get("quantity").map(|node| choice(node, "quantity", Quantity::NAMES));
+    let quantity =
+        section.get(keys::QUANTITY.name).map(|node| choice(node, keys::QUANTITY.name, Quantity::WORDS));
     let quantity = problems.keep(quantity.transpose());
-    let interval =
-        section.get("interval").map(|node| scope.not_negative(node, "`interval`", Dimension::TIME));
-    let interval = problems.keep(interval.transpose());
+    let interval = problems.keep(scope.get(section, &keys::INTERVAL));
     let (spot, place) = spot?;
     Some(Probe {
         name: name?.to_string(),
@@ -88,10 +93,8 @@ pub(crate) fn read(
 }
 
 fn spot(section: &Section<'_>, shapes: &mut ShapeReader<'_>) -> Result<(Spot, Place), Diagnostic> {
-    match (section.get("at"), section.get("region")) {
-        (Some(node), None) => {
-            Ok((Spot::Point(shapes.scope.vector(node, "`at`", Dimension::LENGTH)?), node.place))
-        }
+    match (section.get(keys::AT.name), section.get(keys::REGION.name)) {
+        (Some(node), None) => Ok((Spot::Point(shapes.scope.vector(node, &keys::AT)?), node.place)),
         (None, Some(node)) => Ok((Spot::Region(shapes.shape(node)?), node.place)),
         (None, None) => Err(Diagnostic::at(section.place, "missing key `at`: the material point to follow")
             .help("for example at = [0.2, 0]; or region = \"NAME\" for the mean over the particles in it")),

@@ -8,33 +8,9 @@ use super::head::{Head, head};
 use super::parts::parts;
 use super::{parameters, time};
 use crate::diagnostic::{CaseError, Problems};
+use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
-use crate::units::Dimension;
 use crate::written::{Section, Table, parse_file, to_toml};
-
-const KEYS: &[&str] = &[
-    "name",
-    "title",
-    "dimension",
-    "plane",
-    "formulation",
-    "stepping",
-    "spacing",
-    "kernel",
-    "smoothing",
-    "reference_speed",
-    "parameters",
-    "material",
-    "region",
-    "body",
-    "boundary",
-    "initial",
-    "gravity",
-    "time",
-    "monitor",
-    "probe",
-    "measure",
-];
 
 /// The case that the texts and overrides describe.
 pub(super) fn case(mut sources: Sources, overrides: &Overrides) -> Result<Case, CaseError> {
@@ -69,15 +45,14 @@ fn overridden(
 /// The case; `None` if a part is missing or wrong.
 fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut Problems) -> Option<Case> {
     let top = Section { table: root, place: Place::START, title: "the case".to_string() };
-    top.only(KEYS, problems);
+    top.only(keys::TABLE.keys, problems);
     let Head { name, title, dimension, plane, kernel } = head(&top, problems)?;
     let before = problems.0.len();
     let scope = parameters::read(root, dimension, problems);
     if problems.0.len() > before {
         return None;
     }
-    let spacing = top.need("spacing").and_then(|node| scope.positive(node, "`spacing`", Dimension::LENGTH));
-    let spacing = problems.keep(spacing);
+    let spacing = problems.keep(scope.need(&top, &keys::SPACING));
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
     let (time, monitor) = times?;
@@ -90,7 +65,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         spacing: spacing?,
         kernel,
         parameters: scope.parameters,
-        warnings: parts.warnings(plane),
+        warnings: parts.warnings(root, plane),
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,

@@ -5,8 +5,8 @@ use super::choices::{Family, Formulation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
+use crate::keys::{Words, case, time};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Node, Table, Value, choice, optional, text};
 
 /// How a body is solved.
@@ -44,6 +44,8 @@ pub enum March {
 pub(crate) struct Schemes {
     /// Of a body that does not name its own.
     pub formulation: Formulation,
+    /// Whether what the case says about it makes sense.
+    pub known: bool,
     smoothing: Option<f64>,
     cfl: Option<f64>,
     step: Option<(StepRule, Place)>,
@@ -54,24 +56,27 @@ pub(crate) struct Schemes {
 impl Schemes {
     /// Reads the keys of the case; a wrong one is noted and left out.
     pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Self {
-        let time = match root.get("time").map(|node| &node.value) {
+        let times = match root.get("time").map(|node| &node.value) {
             Some(Value::Table(table)) => Some(table),
             _ => None,
         };
-        let of_time = |key| time.and_then(|table| table.get(key));
-        let number = Dimension::NUMBER;
-        let formulation = optional(root.get("formulation"), problems, read_formulation);
-        let smoothing =
-            optional(root.get("smoothing"), problems, |n| scope.positive(n, "`smoothing`", number));
-        let cfl = optional(of_time("cfl"), problems, |n| cfl(scope, n));
+        let of_time = |key| times.and_then(|table: &Table| table.get(key));
+        let formulation = optional(root.get(case::FORMULATION.name), problems, read_formulation);
+        let smoothing = optional(root.get(case::SMOOTHING.name), problems, |n| scope.of(n, &case::SMOOTHING));
+        let cfl = optional(of_time(time::CFL.name), problems, |n| cfl(scope, n));
         Self {
+            known: formulation.is_some() || root.get(case::FORMULATION.name).is_none(),
             formulation: formulation.map_or(defaults::FORMULATION, |(formulation, _)| formulation),
             smoothing: smoothing.map(|(value, _)| value),
             cfl: cfl.map(|(value, _)| value),
-            step: optional(of_time("step"), problems, |n| choice(n, "step", StepRule::NAMES)),
-            stepping: optional(root.get("stepping"), problems, |n| choice(n, "stepping", Stepping::NAMES)),
-            reference_speed: optional(root.get("reference_speed"), problems, |n| {
-                scope.not_negative(n, "`reference_speed`", Dimension::SPEED)
+            step: optional(of_time(time::STEP.name), problems, |n| {
+                choice(n, time::STEP.name, StepRule::WORDS)
+            }),
+            stepping: optional(root.get(case::STEPPING.name), problems, |n| {
+                choice(n, case::STEPPING.name, Stepping::WORDS)
+            }),
+            reference_speed: optional(root.get(case::REFERENCE_SPEED.name), problems, |n| {
+                scope.of(n, &case::REFERENCE_SPEED)
             }),
         }
     }
@@ -118,21 +123,19 @@ fn useless(key: &str, family: &str, place: Place) -> Diagnostic {
 }
 
 fn cfl(scope: &Scope, node: &Node) -> Result<f64, Diagnostic> {
-    let cfl = scope.positive(node, "`cfl`", Dimension::NUMBER)?;
-    if cfl <= 1.0 {
-        return Ok(cfl);
-    }
-    Err(Diagnostic::at(node.place, format!("`cfl` has to lie in (0, 1], found {cfl}"))
-        .label("no explicit step is stable beyond 1"))
+    scope.of(node, &time::CFL).map_err(|error| match error.label.is_empty() {
+        true => error.label("no explicit step is stable beyond 1"),
+        false => error,
+    })
 }
 
 /// The formulation that a text names.
 pub(crate) fn read_formulation(node: &Node) -> Result<Formulation, Diagnostic> {
     let (name, place) = (text(node, "formulation")?, node.place);
-    if let Some((_, formulation)) = Formulation::NAMES.iter().find(|(n, _)| *n == name) {
+    if let Some((_, formulation, _)) = Formulation::WORDS.iter().find(|(n, ..)| *n == name) {
         return Ok(*formulation);
     }
-    let names = Formulation::NAMES.iter().map(|(n, _)| *n);
+    let names = Formulation::WORDS.iter().map(|(n, ..)| *n);
     if Formulation::LATER.contains(&name) {
         let names: Vec<&str> = names.collect();
         return Err(Diagnostic::at(

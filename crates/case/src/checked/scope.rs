@@ -3,8 +3,10 @@
 use super::field::{FieldExpression, VectorField};
 use crate::diagnostic::Diagnostic;
 use crate::expression::{Expression, ExpressionError, Names};
+use crate::keys::{Key, Kind, Range};
+use crate::source::Place;
 use crate::units::{Dimension, Quantity};
-use crate::written::{Node, Value};
+use crate::written::{Node, Section, Value};
 
 /// What numbers are read with.
 #[derive(Debug, Default)]
@@ -31,6 +33,35 @@ impl Scope {
         }
     }
 
+    /// The number of a key, within its range.
+    pub(crate) fn of(&self, node: &Node, key: &Key) -> Result<f64, Diagnostic> {
+        let Kind::Number(dimension, range) = key.kind else { return Err(mistyped(node, key)) };
+        let number = self.number(node, &key.quoted(), dimension)?;
+        let wrong = |what: &str| Diagnostic::at(node.place, format!("`{}` {what}, found {number}", key.name));
+        match range {
+            Range::Positive | Range::Share | Range::Smoothing if number <= 0.0 => {
+                Err(wrong("has to be positive").label("expected a number > 0"))
+            }
+            Range::Share if number > 1.0 => Err(wrong("has to lie in (0, 1]")),
+            Range::Smoothing if number < 0.6 => Err(wrong("has to be at least 0.6")
+                .help("with less hardly any particle has neighbours; 1.15 and 1.3 are usual")),
+            Range::Smoothing if number > 4.0 => Err(wrong("has to be at most 4")
+                .help("with more every particle has thousands of neighbours; 1.15 and 1.3 are usual")),
+            Range::NotNegative if number < 0.0 => Err(wrong("must not be negative")),
+            _ => Ok(number),
+        }
+    }
+
+    /// The number of a key that has to be there.
+    pub(crate) fn need(&self, section: &Section<'_>, key: &Key) -> Result<f64, Diagnostic> {
+        section.need(key.name).and_then(|node| self.of(node, key))
+    }
+
+    /// The number of a key that need not be there.
+    pub(crate) fn get(&self, section: &Section<'_>, key: &Key) -> Result<Option<f64>, Diagnostic> {
+        section.get(key.name).map(|node| self.of(node, key)).transpose()
+    }
+
     /// A number greater than zero.
     pub(crate) fn positive(&self, node: &Node, what: &str, dimension: Dimension) -> Result<f64, Diagnostic> {
         let number = self.number(node, what, dimension)?;
@@ -42,38 +73,19 @@ impl Scope {
         }
     }
 
-    /// A number that is zero or greater.
-    pub(crate) fn not_negative(
-        &self,
-        node: &Node,
-        what: &str,
-        dimension: Dimension,
-    ) -> Result<f64, Diagnostic> {
-        let number = self.number(node, what, dimension)?;
-        if number >= 0.0 {
-            Ok(number)
-        } else {
-            Err(Diagnostic::at(node.place, format!("{what} must not be negative, found {number}")))
-        }
-    }
-
     /// One number per axis; the third is 0 in 2D.
-    pub(crate) fn vector(
-        &self,
-        node: &Node,
-        what: &str,
-        dimension: Dimension,
-    ) -> Result<[f64; 3], Diagnostic> {
+    pub(crate) fn vector(&self, node: &Node, key: &Key) -> Result<[f64; 3], Diagnostic> {
+        let Some(dimension) = key.kind.dimension() else { return Err(mistyped(node, key)) };
         let mut vector = [0.0; 3];
-        for (i, item) in self.components(node, what)?.iter().enumerate() {
-            vector[i] = self.number(item, what, dimension)?;
+        for (i, item) in self.components(node, key)?.iter().enumerate() {
+            vector[i] = self.number(item, &key.quoted(), dimension)?;
         }
         Ok(vector)
     }
 
     /// A list with one entry per axis.
-    pub(crate) fn components<'a>(&self, node: &'a Node, what: &str) -> Result<&'a [Node], Diagnostic> {
-        let wanted = self.dimension;
+    pub(crate) fn components<'a>(&self, node: &'a Node, key: &Key) -> Result<&'a [Node], Diagnostic> {
+        let (wanted, what) = (self.dimension, key.quoted());
         match &node.value {
             Value::Array(items) if items.len() == wanted => Ok(items),
             _ => Err(Diagnostic::at(
@@ -85,16 +97,13 @@ impl Scope {
     }
 
     /// A function of place and time.
-    pub(crate) fn field(
-        &self,
-        node: &Node,
-        what: &str,
-        dimension: Dimension,
-    ) -> Result<FieldExpression, Diagnostic> {
-        let expression = self.expression(node, what, dimension, &PLACE_AND_TIME)?;
+    pub(crate) fn field(&self, node: &Node, key: &Key) -> Result<FieldExpression, Diagnostic> {
+        let Some(dimension) = key.kind.dimension() else { return Err(mistyped(node, key)) };
+        let what = key.quoted();
+        let expression = self.expression(node, &what, dimension, &PLACE_AND_TIME)?;
         if self.dimension == 2 && expression.uses(2) {
             return Err(Diagnostic::at(
-                node.place,
+                place_of(node, "z"),
                 format!("{what} uses `z`, which a 2D case does not have"),
             ));
         }
@@ -107,15 +116,10 @@ impl Scope {
     }
 
     /// A function of place and time per axis; the third is 0 in 2D.
-    pub(crate) fn vector_field(
-        &self,
-        node: &Node,
-        what: &str,
-        dimension: Dimension,
-    ) -> Result<VectorField, Diagnostic> {
+    pub(crate) fn vector_field(&self, node: &Node, key: &Key) -> Result<VectorField, Diagnostic> {
         let mut field = VectorField::default();
-        for (i, item) in self.components(node, what)?.iter().enumerate() {
-            field.components[i] = self.field(item, what, dimension)?;
+        for (i, item) in self.components(node, key)?.iter().enumerate() {
+            field.components[i] = self.field(item, key)?;
         }
         Ok(field)
     }
@@ -158,12 +162,28 @@ impl Scope {
     }
 }
 
+/// A key that is read as what it is not.
+fn mistyped(node: &Node, key: &Key) -> Diagnostic {
+    Diagnostic::at(node.place, format!("`{}` is read in a wrong way; please report this", key.name))
+}
+
 /// The quantity that a text is, if it has the form of one.
 pub(crate) fn read_quantity(node: &Node, text: &str) -> Result<Option<Quantity>, Diagnostic> {
     Quantity::parse(text).transpose().map_err(|error| {
         let place = node.content.map_or(node.place, |content| node.place.part(content, &error.span));
         Diagnostic::at(place, error.message).help(error.hint)
     })
+}
+
+/// Where an expression names something, if it stands there without escapes; else the whole text.
+pub(crate) fn place_of(node: &Node, name: &str) -> Place {
+    let (Some(content), Value::Text(text)) = (node.content, &node.value) else { return node.place };
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    let alone = |&(at, _): &(usize, &str)| {
+        !text[..at].ends_with(is_letter) && !text[at + name.len()..].starts_with(is_letter)
+    };
+    let found = text.match_indices(name).find(alone);
+    found.map_or(node.place, |(at, _)| node.place.part(content, &(at..at + name.len())))
 }
 
 /// Points at the part of the text that an expression's error is about.

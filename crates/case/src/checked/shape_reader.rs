@@ -6,8 +6,8 @@ use super::scope::Scope;
 use super::shape::ShapeSpec;
 use super::shape_solids::solid;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean, listed};
+use crate::keys::{region, shape};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Node, Section, Table, Value, named};
 
 /// Deepest nesting of shapes, regions included.
@@ -16,20 +16,9 @@ const DEEPEST: usize = 32;
 /// Most shapes of one case, regions counted at each use.
 const MOST: usize = 10_000;
 
-const KINDS: &[&str] = &[
-    "box",
-    "ball",
-    "ring",
-    "hollow-ball",
-    "cylinder",
-    "polygon",
-    "union",
-    "intersection",
-    "difference",
-    "translate",
-    "rotate",
-    "scale",
-];
+fn kinds() -> Vec<&'static str> {
+    shape::KINDS.iter().map(|(name, ..)| *name).collect()
+}
 
 /// Reads shapes, and remembers regions.
 pub(crate) struct ShapeReader<'a> {
@@ -45,8 +34,8 @@ impl<'a> ShapeReader<'a> {
     pub(crate) fn new(scope: &'a Scope, root: &'a Table, problems: &mut Problems) -> Self {
         let mut regions = HashMap::new();
         for (name, section) in named(root, "region", problems) {
-            section.only(&["shape"], problems);
-            if let Some(shape) = problems.keep(section.need("shape")) {
+            section.only(region::TABLE.keys, problems);
+            if let Some(shape) = problems.keep(section.need(region::SHAPE.name)) {
                 regions.insert(name, shape);
             }
         }
@@ -113,7 +102,7 @@ impl<'a> ShapeReader<'a> {
                 node.place,
                 format!("a shape is a table with one key, found {count}"),
             )
-            .help(format!("the key is one of {}", listed(KINDS))));
+            .help(format!("the key is one of {}", listed(&kinds()))));
         };
         let kind = entry.key.as_str();
         let title = format!("the shape `{kind}`");
@@ -124,11 +113,11 @@ impl<'a> ShapeReader<'a> {
             "translate" => self.translate(&Section::of(&entry.node, title)?, depth),
             "rotate" => self.rotate(&Section::of(&entry.node, title)?, depth),
             "scale" => self.scale(&Section::of(&entry.node, title)?, depth),
-            _ if KINDS.contains(&kind) => {
+            _ if kinds().contains(&kind) => {
                 solid(self.scope, kind, entry.place, &Section::of(&entry.node, title)?)
             }
             _ => Err(Diagnostic::at(entry.place, format!("unknown shape `{kind}`"))
-                .help(did_you_mean(kind, KINDS.iter().copied()))),
+                .help(did_you_mean(kind, kinds()))),
         }
     }
 
@@ -146,47 +135,45 @@ impl<'a> ShapeReader<'a> {
 
     /// The shape inside a transformation.
     fn inner(&mut self, section: &Section<'_>, depth: usize) -> Result<Box<ShapeSpec>, Diagnostic> {
-        Ok(Box::new(self.nested(section.need("shape")?, depth + 1)?))
+        Ok(Box::new(self.nested(section.need(shape::SHAPE.name)?, depth + 1)?))
     }
 
     fn translate(&mut self, section: &Section<'_>, depth: usize) -> Result<ShapeSpec, Diagnostic> {
-        section.only_first(&["by", "shape"])?;
-        let by = self.scope.vector(section.need("by")?, "`by`", Dimension::LENGTH)?;
+        section.only_of(shape::keys("translate"))?;
+        let by = self.scope.vector(section.need(shape::BY.name)?, &shape::BY)?;
         Ok(ShapeSpec::Translate { by, shape: self.inner(section, depth)? })
     }
 
     fn rotate(&mut self, section: &Section<'_>, depth: usize) -> Result<ShapeSpec, Diagnostic> {
-        section.only_first(&["angle", "axis", "about", "shape"])?;
-        let angle = self.scope.number(section.need("angle")?, "`angle`", Dimension::NUMBER)?;
+        section.only_of(shape::keys("rotate"))?;
+        let angle = self.scope.need(section, &shape::ANGLE)?;
         let axis = self.axis(section)?;
         let about = self.about(section)?;
         Ok(ShapeSpec::Rotate { angle, axis, about, shape: self.inner(section, depth)? })
     }
 
     fn scale(&mut self, section: &Section<'_>, depth: usize) -> Result<ShapeSpec, Diagnostic> {
-        section.only_first(&["factor", "about", "shape"])?;
-        let factor = self.scope.positive(section.need("factor")?, "`factor`", Dimension::NUMBER)?;
+        section.only_of(shape::keys("scale"))?;
+        let factor = self.scope.need(section, &shape::FACTOR)?;
         let about = self.about(section)?;
         Ok(ShapeSpec::Scale { factor, about, shape: self.inner(section, depth)? })
     }
 
     /// The point that stays; the origin if none is given.
     fn about(&self, section: &Section<'_>) -> Result<[f64; 3], Diagnostic> {
-        section
-            .get("about")
-            .map_or(Ok([0.0; 3]), |node| self.scope.vector(node, "`about`", Dimension::LENGTH))
+        section.get(shape::ABOUT.name).map_or(Ok([0.0; 3]), |node| self.scope.vector(node, &shape::ABOUT))
     }
 
     /// The unit vector of a rotation: given in 3D, z in 2D.
     fn axis(&self, section: &Section<'_>) -> Result<[f64; 3], Diagnostic> {
         if self.scope.dimension == 2 {
-            return match section.get("axis") {
+            return match section.get(shape::AXIS.name) {
                 None => Ok([0.0, 0.0, 1.0]),
                 Some(node) => Err(Diagnostic::at(node.place, "a rotation in 2D has no `axis`")),
             };
         }
-        let node = section.need("axis")?;
-        let axis = self.scope.vector(node, "`axis`", Dimension::NUMBER)?;
+        let node = section.need(shape::AXIS.name)?;
+        let axis = self.scope.vector(node, &shape::AXIS)?;
         let largest = axis.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
         if largest == 0.0 {
             return Err(Diagnostic::at(node.place, "the axis of a rotation cannot be zero"));

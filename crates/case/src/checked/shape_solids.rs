@@ -3,6 +3,7 @@
 use super::scope::Scope;
 use super::shape::ShapeSpec;
 use crate::diagnostic::Diagnostic;
+use crate::keys::{Key, shape};
 use crate::source::Place;
 use crate::units::Dimension;
 use crate::written::{Node, Section, Value};
@@ -29,18 +30,14 @@ fn only_3d(place: Place, kind: &str) -> Diagnostic {
     Diagnostic::at(place, format!("the shape `{kind}` exists in 3D only, and the case has dimension = 2"))
 }
 
-fn point(scope: &Scope, section: &Section<'_>, key: &str) -> Result<[f64; 3], Diagnostic> {
-    scope.vector(section.need(key)?, &format!("`{key}`"), Dimension::LENGTH)
-}
-
-fn length(scope: &Scope, section: &Section<'_>, key: &str) -> Result<f64, Diagnostic> {
-    scope.positive(section.need(key)?, &format!("`{key}`"), Dimension::LENGTH)
+fn point(scope: &Scope, section: &Section<'_>, key: &Key) -> Result<[f64; 3], Diagnostic> {
+    scope.vector(section.need(key.name)?, key)
 }
 
 fn cuboid(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
-    section.only_first(&["min", "max"])?;
-    let min = point(scope, section, "min")?;
-    let max = point(scope, section, "max")?;
+    section.only_of(shape::keys("box"))?;
+    let min = point(scope, section, &shape::MIN)?;
+    let max = point(scope, section, &shape::MAX)?;
     for axis in 0..scope.dimension {
         if min[axis] >= max[axis] {
             let name = ["x", "y", "z"][axis];
@@ -52,16 +49,16 @@ fn cuboid(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic>
 }
 
 fn ball(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
-    section.only_first(&["center", "radius"])?;
-    let center = point(scope, section, "center")?;
-    Ok(ShapeSpec::Ball { center, radius: length(scope, section, "radius")? })
+    section.only_of(shape::keys("ball"))?;
+    let center = point(scope, section, &shape::CENTER)?;
+    Ok(ShapeSpec::Ball { center, radius: scope.need(section, &shape::RADIUS)? })
 }
 
 fn shell(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
-    section.only_first(&["center", "inner", "outer"])?;
-    let center = point(scope, section, "center")?;
-    let inner = scope.not_negative(section.need("inner")?, "`inner`", Dimension::LENGTH)?;
-    let outer = length(scope, section, "outer")?;
+    section.only_of(shape::keys("ring"))?;
+    let center = point(scope, section, &shape::CENTER)?;
+    let inner = scope.need(section, &shape::INNER)?;
+    let outer = scope.need(section, &shape::OUTER)?;
     if inner >= outer {
         let message = format!("the inner radius {inner} has to be smaller than the outer radius {outer}");
         return Err(Diagnostic::at(section.need("inner")?.place, message));
@@ -70,21 +67,21 @@ fn shell(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> 
 }
 
 fn cylinder(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
-    section.only_first(&["from", "to", "radius"])?;
-    let from = point(scope, section, "from")?;
-    let to = point(scope, section, "to")?;
+    section.only_of(shape::keys("cylinder"))?;
+    let from = point(scope, section, &shape::FROM)?;
+    let to = point(scope, section, &shape::TO)?;
     if from == to {
         return Err(Diagnostic::at(
             section.need("to")?.place,
             "the cylinder has no length: `from` equals `to`",
         ));
     }
-    Ok(ShapeSpec::Cylinder { from, to, radius: length(scope, section, "radius")? })
+    Ok(ShapeSpec::Cylinder { from, to, radius: scope.need(section, &shape::RADIUS)? })
 }
 
 fn polygon(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
-    section.only_first(&["points", "height"])?;
-    let node = section.need("points")?;
+    section.only_of(shape::keys("polygon"))?;
+    let node = section.need(shape::POINTS.name)?;
     let points = match &node.value {
         Value::Array(items) if items.len() >= 3 => {
             items.iter().map(|item| pair(scope, item, "each point")).collect::<Result<Vec<_>, _>>()?
@@ -100,12 +97,12 @@ fn polygon(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic
 /// The height of a prism: required in 3D, refused in 2D.
 fn height(scope: &Scope, section: &Section<'_>) -> Result<Option<[f64; 2]>, Diagnostic> {
     if scope.dimension == 2 {
-        return match section.get("height") {
+        return match section.get(shape::HEIGHT.name) {
             None => Ok(None),
             Some(node) => Err(Diagnostic::at(node.place, "a polygon in 2D has no `height`")),
         };
     }
-    let node = section.need("height")?;
+    let node = section.need(shape::HEIGHT.name)?;
     let height = pair(scope, node, "`height`")?;
     if height[0] >= height[1] {
         let message = format!("`height` has to rise, found {} to {}", height[0], height[1]);

@@ -3,8 +3,8 @@
 use super::defaults;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::{monitor as monitor_keys, time as keys};
 use crate::source::Place;
-use crate::units::Dimension;
 use crate::written::{Section, Table};
 
 /// How long, and how often something is written.
@@ -31,13 +31,9 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Opti
     let mut monitor = Monitor { zigzag: None, interval: time.output };
     let Some(node) = root.get("monitor") else { return Some((time, monitor)) };
     let section = problems.keep(Section::of(node, "[monitor]"))?;
-    section.only(&["zigzag", "interval"], problems);
-    if let Some(node) = section.get("zigzag") {
-        monitor.zigzag = problems.keep(scope.positive(node, "`zigzag`", Dimension::NUMBER));
-    }
-    if let Some(node) = section.get("interval") {
-        monitor.interval = problems.keep(scope.positive(node, "`interval`", Dimension::TIME))?;
-    }
+    section.only(monitor_keys::TABLE.keys, problems);
+    monitor.zigzag = problems.keep(scope.get(&section, &monitor_keys::ZIGZAG)).flatten();
+    monitor.interval = problems.keep(scope.get(&section, &monitor_keys::INTERVAL))?.unwrap_or(time.output);
     Some((time, monitor))
 }
 
@@ -50,11 +46,9 @@ fn time(root: &Table, scope: &Scope, problems: &mut Problems) -> Option<Time> {
         return None;
     };
     let section = problems.keep(Section::of(node, "[time]"))?;
-    section.only(&["end", "output", "cfl", "step"], problems);
-    let end = section.need("end").and_then(|node| scope.positive(node, "`end`", Dimension::TIME));
-    let end = problems.keep(end);
-    let output = section.get("output").map(|node| scope.positive(node, "`output`", Dimension::TIME));
-    let output = problems.keep(output.transpose());
+    section.only(keys::TABLE.keys, problems);
+    let end = problems.keep(scope.need(&section, &keys::END));
+    let output = problems.keep(scope.get(&section, &keys::OUTPUT));
     let end = end?;
     Some(Time { end, output: output?.unwrap_or(end / defaults::FRAMES) })
 }

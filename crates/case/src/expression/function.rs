@@ -56,7 +56,7 @@ pub(super) fn function(name: &str) -> Option<Function> {
 }
 
 /// All names of functions.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().map(|(name, _)| *name)
 }
 

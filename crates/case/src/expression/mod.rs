@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-pub(crate) use function::is_reserved;
+pub(crate) use function::{is_reserved, names as function_names};
 use program::Program;
 
 /// A compiled expression.

@@ -30,6 +30,22 @@ pub enum RunError {
     /// The arrangement of particles could not be measured.
     #[error("the disorder of the particles cannot be measured: {0}")]
     Disorder(#[from] DisorderError),
+    /// There is not memory enough.
+    #[error(
+        "about {:.1e} particles need {:.1} GB of memory, and {:.1} GB are free\nhint: choose a larger spacing",
+        *particles as f64, needed / 1e9, available / 1e9
+    )]
+    TooLarge {
+        /// Particles.
+        particles: usize,
+        /// Bytes needed.
+        needed: f64,
+        /// Bytes free.
+        available: f64,
+    },
+    /// The writer stopped and did not say why.
+    #[error("the results are no longer written\nhint: this is a mistake in the program: please report it")]
+    Writer,
     /// Threads could not be started.
     #[error("cannot start threads: {0}\nhint: try fewer with --threads")]
     Threads(String),
@@ -43,6 +59,9 @@ impl RunError {
     /// Whether the input is to blame, rather than the run.
     #[must_use]
     pub fn is_input(&self) -> bool {
-        matches!(self, Self::Case(_) | Self::Output { cause: OutputError::AlreadyExists { .. } })
+        matches!(
+            self,
+            Self::Case(_) | Self::TooLarge { .. } | Self::Output { cause: OutputError::AlreadyExists { .. } }
+        )
     }
 }

@@ -1,23 +1,36 @@
 //! Running a case: the only time loop of the project.
 
+mod books;
+mod contact;
 pub mod curves;
 mod error;
 mod frames;
 mod history;
 mod measures;
-mod record;
+mod memory;
+mod recorder;
+mod sheet;
 mod trial;
+mod watcher;
+mod writer;
 
 pub use error::RunError;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build};
-use output::{Frame, ResultDir, Summary};
-use record::Recorder;
+use books::Books;
+use output::manifest::Machine;
+use output::{Frame, Manifest, ResultDir, Summary};
+use recorder::Recorder;
+use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::simulation::{Numbers, Simulation};
+use taut::integrator::Diverged;
+use taut::run::InstructionSet;
+use taut::simulation::{Numbers, Simulation, Totals};
+use watcher::Watcher;
+use writer::Writer;
 
 /// How to run a case.
 #[derive(Clone, Debug)]
@@ -43,7 +56,7 @@ pub struct Progress {
     pub wall: f64,
 }
 
-/// Somebody who watches a run.
+/// Somebody who watches a run: `stepped` from the run itself, `warned` and `framed` from the thread that writes.
 pub trait Observer: Send {
     /// The run is about to begin with so many particles.
     fn started(&mut self, _case: &Case, _particles: usize, _threads: usize) {}
@@ -52,7 +65,7 @@ pub trait Observer: Send {
     /// Where the run stands; called after every step.
     fn stepped(&mut self, _progress: &Progress) {}
     /// A frame was written.
-    fn framed(&mut self, _frame: &Frame) {}
+    fn framed(&mut self, _frame: Frame) {}
 }
 
 /// An observer that does not look.
@@ -69,40 +82,100 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// frames, probes and summary.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
     let built = build(case, settings.numbers)?;
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let useful = (built.particles() / PARTICLES_PER_THREAD).max(1);
-    let threads = settings.threads.unwrap_or_else(|| available.min(useful)).max(1);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RunError::threads)?;
+    let threads = settings.threads.unwrap_or_else(|| useful_threads(built.particles())).max(1);
+    let pool = pool(threads)?;
     let results = ResultDir::create(&settings.out)?;
     observer.started(case, built.particles(), threads);
-    pool.install(|| in_pool(case, built, &results, observer))
+    pool.install(|| in_pool(case, built, &results, (&pool, observer)))
+}
+
+/// As many threads as there are cores, but none without particles enough.
+fn useful_threads(particles: usize) -> usize {
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    available.min((particles / PARTICLES_PER_THREAD).max(1))
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, RunError> {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RunError::threads)
 }
 
 fn in_pool(
     case: &Case,
     built: Built,
     results: &ResultDir,
-    observer: &mut dyn Observer,
+    (threads, observer): (&rayon::ThreadPool, &mut dyn Observer),
 ) -> Result<Summary, RunError> {
     for warning in &built.warnings {
         observer.warned(warning);
     }
-    let (mut recorder, solvers, drives) = Recorder::create(case, built, results)?;
-    let clock = Instant::now();
-    let mut simulation = match Simulation::start(solvers, drives) {
-        Ok(simulation) => simulation,
-        Err(diverged) => return Err(recorder.never_started(diverged)?),
+    let machine = Machine::here(InstructionSet::best().name());
+    let precision = built.numbers.name();
+    Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
+        .write(results)?;
+    let Built { solvers, drives, probes, watch, numbers, warnings, .. } = built;
+    let writer = Writer::create(case, results, watch, warnings)?;
+    // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
+    let desk = pool(1)?;
+    let (watcher, clock) = (Watcher::new(observer), Instant::now());
+    let mut simulation = Simulation::new(solvers, drives);
+    let (outbox, inbox) = sheets();
+    let mut written = None;
+    let marched = desk.in_place_scope(|scope| {
+        let (written, watcher) = (&mut written, &watcher);
+        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, threads)));
+        let march = March { case, simulation: &mut simulation, watcher, clock };
+        march.finish(Recorder::new(case, probes, outbox))
+    });
+    let writer = written.transpose()?;
+    let (Some(writer), Ok((start, stopped))) = (writer, marched) else {
+        return Err(RunError::Writer);
     };
-    recorder.begin(&simulation, observer)?;
-    while simulation.time() < case.time.end {
-        let stepped = simulation.step();
-        if let Err(diverged) = stepped {
-            return Err(recorder.diverged(&simulation, diverged, clock.elapsed().as_secs_f64())?);
-        }
-        recorder.after_step(&simulation, observer)?;
-        let wall = clock.elapsed().as_secs_f64();
-        let (time, step) = (simulation.time(), simulation.steps());
-        observer.stepped(&Progress { time, end: case.time.end, step, wall });
+    let wall = clock.elapsed().as_secs_f64();
+    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall };
+    match stopped {
+        None => books.done(),
+        Some(diverged) => Err(books.diverged(diverged)?),
     }
-    recorder.end(&simulation, clock.elapsed().as_secs_f64(), observer)
+}
+
+/// The time loop.
+struct March<'a> {
+    case: &'a Case,
+    simulation: &'a mut Simulation,
+    watcher: &'a Watcher<'a>,
+    clock: Instant,
+}
+
+/// Totals at the start, and why the run stopped before its end.
+type Marched = Result<(Option<Totals>, Option<Diverged>), WriterGone>;
+
+impl March<'_> {
+    fn finish(mut self, mut recorder: Recorder<'_>) -> Marched {
+        let stopped = self.steps(&mut recorder)?;
+        let start = recorder.start;
+        match stopped {
+            None => recorder.end(self.simulation)?,
+            Some(_) => recorder.abandon(self.simulation)?,
+        }
+        Ok((start, stopped))
+    }
+
+    fn steps(&mut self, recorder: &mut Recorder<'_>) -> Result<Option<Diverged>, WriterGone> {
+        if let Err(diverged) = self.simulation.begin() {
+            return Ok(Some(diverged));
+        }
+        recorder.begin(self.simulation)?;
+        let end = self.case.time.end;
+        while self.simulation.time() < end {
+            if let Err(diverged) = self.simulation.step() {
+                return Ok(Some(diverged));
+            }
+            recorder.after_step(self.simulation)?;
+            let wall = self.clock.elapsed().as_secs_f64();
+            let progress =
+                Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
+            self.watcher.with(|observer| observer.stepped(&progress));
+        }
+        Ok(None)
+    }
 }

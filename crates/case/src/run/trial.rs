@@ -1,13 +1,21 @@
 //! What a run will cost, from a few steps of it.
 
 use super::error::RunError;
+use super::frames::frame;
+use super::memory::{peak, present};
+use super::{pool, useful_threads};
 use crate::Case;
-use crate::build::build;
+use crate::build::{Built, available_memory, build, reckon};
+use output::Frame;
 use std::time::Instant;
-use taut::simulation::{Numbers, Simulation};
+use taut::simulation::{Numbers, Simulation, Snapshot};
 
-/// Steps tried.
+/// Steps tried at least; more until [`TRIED`] seconds have passed.
 const TRIAL: u32 = 20;
+/// Seconds of trial steps.
+const TRIED: f64 = 0.5;
+/// A case with more particles than this is tried with a larger spacing, which leaves about as many.
+const TRIABLE: f64 = 300_000.0;
 
 /// What a run will cost.
 #[derive(Clone, Debug)]
@@ -16,47 +24,138 @@ pub struct Estimate {
     pub particles: usize,
     /// Mean number of neighbours.
     pub neighbours: f64,
-    /// Memory, bytes.
-    pub memory: f64,
     /// The first time step, s.
     pub dt: f64,
     /// Steps at that time step.
     pub steps: f64,
-    /// Wall time at the speed of a few trial steps on one thread, s.
+    /// Threads that a run would use.
+    pub threads: usize,
+    /// Wall time at the speed of the trial steps, s.
     pub seconds: f64,
+    /// Size of the frames on disk, bytes.
+    pub disk: f64,
+    /// Particles across the thinnest part of each body.
+    pub across: Vec<usize>,
     /// What is doubtful.
     pub warnings: Vec<String>,
+    /// The initial state.
+    pub frame: Frame,
+    /// The spacing that was tried, m, where the case itself is too large to try.
+    pub tried: Option<f64>,
+    /// Memory of the program before the case was built, bytes.
+    before: f64,
+    /// Particles of the case for each one tried.
+    ratio: f64,
 }
 
-/// Builds the case, takes a few steps, and reckons.
+impl Estimate {
+    /// Memory that a run takes at most, bytes: what trying it took until now, scaled to the case. `None` where the system
+    /// does not say.
+    #[must_use]
+    pub fn memory(&self) -> Option<f64> {
+        Some(self.before + self.ratio * (peak()? - self.before))
+    }
+}
+
+/// Builds the case, takes a few steps and a look as a run would, and reckons. A case that is large is tried with a larger spacing.
 ///
 /// # Errors
-/// As [`run`](super::run), but nothing is written.
+/// As [`run`](super::run), but nothing is written; and a case that needs more memory than there is.
 pub fn estimate(case: &Case, numbers: Numbers) -> Result<Estimate, RunError> {
-    let built = build(case, numbers)?;
-    let (particles, warnings) = (built.particles(), built.warnings);
+    let before = present().unwrap_or(0.0);
+    let count = reckon(case);
+    if count.is_finite() && count > TRIABLE {
+        let scale = (count / TRIABLE).powf(1.0 / case.dimension as f64);
+        let mut coarse = case.clone();
+        coarse.spacing *= scale;
+        // What is lost or too thin at the larger spacing is not the case's fault; then it has to be tried itself.
+        if let Ok(built) = build(&coarse, numbers) {
+            let tried = Some(coarse.spacing);
+            let one = of_built(&coarse, built, before)?;
+            let (ratio, across) =
+                (count / one.particles as f64, |n: &usize| (*n as f64 * scale).round() as usize);
+            let large = Estimate {
+                particles: count as usize,
+                dt: one.dt / scale,
+                steps: (one.steps * scale).ceil(),
+                seconds: one.seconds * scale * ratio,
+                disk: one.disk * ratio,
+                across: one.across.iter().map(across).collect(),
+                warnings: Vec::new(),
+                tried,
+                ratio,
+                ..one
+            };
+            return afford(large);
+        }
+    }
+    of_built(case, build(case, numbers)?, before)
+}
+
+/// Refuses what will not fit.
+fn afford(estimate: Estimate) -> Result<Estimate, RunError> {
+    match (estimate.memory(), available_memory()) {
+        (Some(needed), Some(available)) if needed > available => {
+            Err(RunError::TooLarge { particles: estimate.particles, needed, available })
+        }
+        _ => Ok(estimate),
+    }
+}
+
+fn of_built(case: &Case, built: Built, before: f64) -> Result<Estimate, RunError> {
+    let threads = useful_threads(built.particles());
+    pool(threads)?.install(|| tried(case, built, (threads, before)))
+}
+
+fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<Estimate, RunError> {
+    let particles = built.particles();
+    let Built { solvers, drives, mut watch, warnings, across, .. } = built;
     let stopped = |diverged| RunError::Diverged { diverged: Box::new(diverged), results: "nowhere".into() };
-    let mut simulation = Simulation::start(built.solvers, built.drives).map_err(stopped)?;
-    let dt = simulation.dt();
+    let mut simulation = Simulation::start(solvers, drives).map_err(stopped)?;
+    let (dt, first) = (simulation.dt(), looked_at(case, &simulation, watch.as_mut())?);
     let clock = Instant::now();
     let mut taken = 0;
-    while taken < TRIAL && simulation.time() < case.time.end {
+    while (taken < TRIAL || clock.elapsed().as_secs_f64() < TRIED) && simulation.time() < case.time.end {
         simulation.step().map_err(stopped)?;
         taken += 1;
     }
     let per_step = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
+    // A run holds two sheets, three frames for pictures, and one that is being written.
+    let (last, sheet) = (looked_at(case, &simulation, watch.as_mut())?, first.1);
+    // Threads hold back what they have freed: about a frame more, if there are several.
+    let kept = vec![last.0.clone(); if threads > 1 { 3 } else { 2 }];
+    let bytes = output::encoded_size(&last.0)? as f64;
     let steps = (case.time.end / dt).ceil();
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
-    // Of a pair: D + 2 numbers and two indices in the list, one more index for disorder; of a particle: about 110 numbers.
-    let pair = 8.0 * (case.dimension as f64 + 2.0) * 1.1 + 12.0;
+    drop((sheet, last, kept));
     Ok(Estimate {
         particles,
         neighbours,
-        memory: particles as f64 * (neighbours * pair + 8.0 * 110.0 + 500.0),
         dt,
         steps,
+        threads,
         seconds: per_step * steps,
+        disk: bytes * (case.time.end / case.time.output).ceil(),
+        across,
         warnings,
+        frame: first.0,
+        tried: None,
+        before,
+        ratio: 1.0,
     })
+}
+
+/// A frame of the present state, and the sheet that it came from.
+fn looked_at(
+    case: &Case,
+    simulation: &Simulation,
+    watch: &mut dyn crate::build::Watch,
+) -> Result<(Frame, Snapshot), RunError> {
+    let mut snapshot = Snapshot::default();
+    simulation.snapshot(&mut snapshot);
+    watch.measure(&snapshot, true)?;
+    let mut deformation = Vec::new();
+    watch.deformation(&snapshot, &mut deformation);
+    Ok((frame(&snapshot, &deformation, case.spacing, simulation.steps()), snapshot))
 }

@@ -58,6 +58,11 @@ impl Dimension {
         if used.is_empty() { "1".to_string() } else { used.join(" ") }
     }
 
+    /// The SI unit, for those that have a name; "no unit" for a number.
+    pub(crate) fn unit(self) -> &'static str {
+        NAMES.iter().find(|(dimension, ..)| *dimension == self).map_or("", |(_, _, unit)| unit)
+    }
+
     /// "a pressure", "a length"; a dimension without a name of its own is "a quantity".
     pub(crate) fn name(self) -> &'static str {
         NAMES.iter().find(|(dimension, ..)| *dimension == self).map_or("a quantity", |(_, name, _)| name)

@@ -2,6 +2,7 @@
 
 use super::{Node, Table, Value};
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean, listed};
+use crate::keys::{Key, names};
 use crate::source::Place;
 
 /// A table under the name that messages give it.
@@ -41,13 +42,18 @@ impl<'a> Section<'a> {
     }
 
     /// Refuses every key that is not among `allowed`, each with the nearest right name.
-    pub(crate) fn only(&self, allowed: &[&str], problems: &mut Problems) {
-        problems.0.extend(self.unknown(allowed));
+    pub(crate) fn only(&self, allowed: &[Key], problems: &mut Problems) {
+        problems.0.extend(self.unknown(&names(allowed)));
     }
 
     /// Refuses the first key that is not among `allowed`.
     pub(crate) fn only_first(&self, allowed: &[&str]) -> Result<(), Diagnostic> {
         self.unknown(allowed).next().map_or(Ok(()), Err)
+    }
+
+    /// Refuses the first key that is not among these.
+    pub(crate) fn only_of(&self, allowed: &[Key]) -> Result<(), Diagnostic> {
+        self.only_first(&names(allowed))
     }
 
     fn unknown(&self, allowed: &[&str]) -> impl Iterator<Item = Diagnostic> {
@@ -116,10 +122,10 @@ pub(crate) fn text<'a>(node: &'a Node, what: &str) -> Result<&'a str, Diagnostic
 }
 
 /// The choice that a text names.
-pub(crate) fn choice<T: Copy>(node: &Node, what: &str, choices: &[(&str, T)]) -> Result<T, Diagnostic> {
+pub(crate) fn choice<T: Copy>(node: &Node, what: &str, choices: &[(&str, T, &str)]) -> Result<T, Diagnostic> {
     let name = text(node, what)?;
-    choices.iter().find(|(n, _)| *n == name).map(|(_, value)| *value).ok_or_else(|| {
-        let names: Vec<&str> = choices.iter().map(|(n, _)| *n).collect();
+    choices.iter().find(|(n, ..)| *n == name).map(|(_, value, _)| *value).ok_or_else(|| {
+        let names: Vec<&str> = choices.iter().map(|(n, ..)| *n).collect();
         Diagnostic::at(node.place, format!("unknown {what} `{name}`, expected one of {}", listed(&names)))
             .help(did_you_mean(name, names))
     })

@@ -41,7 +41,7 @@ fn here(arguments: &[&str]) -> Ended {
 #[test]
 fn help_is_as_agreed() {
     let mut text = String::new();
-    for command in ["", "run", "list", "check", "validate", "bench"] {
+    for command in ["", "run", "list", "check", "explain", "new", "schema", "validate", "bench"] {
         let arguments: Vec<&str> = [command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
         let help = here(&arguments).with(0).stdout;
         text += &format!("$ taut {}\n{help}\n", arguments.join(" "));
@@ -144,8 +144,9 @@ fn check_tells_what_a_run_would_be() {
     assert!(lines[1].starts_with("  body block: rubber, tl-hourglass-free, wave speed "), "{told}");
     // The longitudinal wave of E = 17 MPa, nu = 0.45, rho = 1100 kg/m^3: sqrt((K + 4G/3)/rho) = 242.117 m/s.
     assert!(lines[1].contains("242.117"), "{told}");
-    assert!(lines[2].starts_with("  particles   200 with "), "{told}");
-    for (line, heading) in lines[3..].iter().zip(["  memory ", "  time step ", "  run time "]) {
+    assert!(lines[2].contains("10 particles across"), "{told}");
+    assert!(lines[3].starts_with("  particles   200 with "), "{told}");
+    for (line, heading) in lines[4..].iter().zip(["  memory ", "  disk ", "  time step ", "  run time "]) {
         assert!(line.starts_with(heading), "{told}");
     }
     assert!(!folder.path().join("out").exists(), "a check writes nothing");

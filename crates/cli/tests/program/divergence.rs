@@ -49,4 +49,8 @@ fn a_speed_without_sense_stops_the_run_before_it_starts() {
     let summary = json(&folder.path().join("out/block/summary.json"));
     assert_eq!(summary["status"], "diverged");
     assert_eq!(summary["steps"], 0);
+    let results = folder.path().join("out/block");
+    for file in ["particles/particles_000000.vtp", "start.png"] {
+        assert!(results.join(file).is_file(), "the initial state can be looked at: {file}");
+    }
 }

@@ -1,6 +1,7 @@
 //! The program as a user meets it: what is typed, what comes back, what lies in the result directory.
 
 mod bench;
+mod cases;
 mod command_line;
 mod divergence;
 mod results;

@@ -137,7 +137,9 @@ fn single_precision_is_written_down_and_is_near_double() {
     });
     // 40 steps of sums that are rounded to 6e-8 of terms that nearly cancel; three digits are what is promised.
     assert!(double != single && (single / double - 1.0).abs() < 1e-3, "{double:e} {single:e}");
-    taut(folder.path(), &["check", "case.toml", "--precision", "single"]).with(0);
+    for command in ["check", "explain"] {
+        taut(folder.path(), &[command, "case.toml", "--precision", "single"]).with(0);
+    }
 }
 
 #[test]

@@ -77,8 +77,21 @@ const HEADS: &[(&str, &str, &str, &str)] = &[
     ("dimension = 2\n", "", "missing key `dimension`", "name = \"block\""),
     ("spacing = \"dp\"", "spacing = 1", "no particle fits inside", "[[body]]"),
     ("fixed = true", "velocity = [\"sqrt(-1 - t)\", 0]", "is not a number", "[[boundary]]"),
+    (
+        "[[probe]]",
+        "[[gravity]]\nacceleration = [\"1/(x-x)\", 0]\n\n[[probe]]",
+        "`1/(x-x)` is not a number",
+        "[[gravity]]",
+    ),
+    (
+        "[[probe]]",
+        "[[gravity]]\nacceleration = [0, \"sqrt(-1 - t)\"]\n\n[[probe]]",
+        "`sqrt(-1 - t)` is not a number",
+        "[[gravity]]",
+    ),
     ("at = [0.02, 0.005]\n", "", "missing key `at`", "[[probe]]"),
     ("spacing = \"dp\"", "spacing = 1e-12", "choose a larger spacing", "[[body]]"),
+    ("spacing = \"dp\"", "spacing = 4e-7", "GB of memory", "[[body]]"),
     ("v0*sin(80*x)", "1/(x-x)", "the velocity of body `block` is inf", "[[body]]"),
     ("[-1, -1], max = [\"dp\", 1]", "[-2, -2], max = [-1, -1]", "holds no particle", "[[boundary]]"),
     (

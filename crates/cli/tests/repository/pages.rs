@@ -106,3 +106,94 @@ fn one_version_everywhere() {
         assert!(read(&root().join(licence)).len() > 1000, "{licence} is the full text");
     }
 }
+
+/// The schema and the reference page are what the program prints. After a change of the keys, run this test with
+/// `TAUT_ACCEPT=1` in the environment.
+#[test]
+fn schema_and_reference_page_are_those_of_the_program() {
+    for (file, now) in
+        [("docs/taut-case.schema.json", case::keys::schema()), ("docs/case-reference.md", case::keys::page())]
+    {
+        if std::env::var_os("TAUT_ACCEPT").is_some() {
+            std::fs::write(root().join(file), &now).expect("the page is written");
+        }
+        assert!(text(file) == now, "{file} is not what the program prints: see the comment of this test");
+    }
+}
+
+/// The built-in cases use only what the schema has: every key, at every level.
+#[test]
+fn built_in_cases_follow_the_schema() {
+    let schema: serde_json::Value = serde_json::from_str(&case::keys::schema()).expect("JSON");
+    let mut starter = vec![root().join("crates/cli/src/starter.toml")];
+    starter.extend(files("cases", &["toml"]));
+    for path in starter {
+        let case: toml::Table = read(&path).parse().expect("TOML");
+        let case = serde_json::to_value(case).expect("TOML is JSON");
+        follows(&case, &schema, &schema, &path.display().to_string());
+    }
+}
+
+/// Checks what schemas of this program use: references, alternatives, types, keys, words, lengths and bounds.
+fn follows(value: &serde_json::Value, schema: &serde_json::Value, root: &serde_json::Value, at: &str) {
+    if let Err(error) = fits(value, schema, root) {
+        panic!("{at}: {error}");
+    }
+}
+
+fn fits(
+    value: &serde_json::Value,
+    schema: &serde_json::Value,
+    root: &serde_json::Value,
+) -> Result<(), String> {
+    use serde_json::Value;
+    if let Some(reference) = schema["$ref"].as_str() {
+        let name = reference.strip_prefix("#/definitions/").expect("a definition");
+        return fits(value, &root["definitions"][name], root);
+    }
+    if let Some(any) = schema["anyOf"].as_array() {
+        let errors: Vec<String> = any.iter().filter_map(|s| fits(value, s, root).err()).collect();
+        return if errors.len() < any.len() { Ok(()) } else { Err(errors.join("; ")) };
+    }
+    if let Some(words) = schema["enum"].as_array() {
+        return if words.contains(value) { Ok(()) } else { Err(format!("{value} is none of {words:?}")) };
+    }
+    if let Some(types) = schema.get("type") {
+        let is = match value {
+            Value::Object(_) => "object",
+            Value::Array(_) => "array",
+            Value::String(_) => "string",
+            Value::Bool(_) => "boolean",
+            Value::Number(n) if n.is_f64() => "number",
+            _ => "integer",
+        };
+        let types: Vec<&str> = types
+            .as_array()
+            .map_or(vec![types.as_str().unwrap_or("")], |t| t.iter().filter_map(Value::as_str).collect());
+        let wide = if is == "integer" { "number" } else { is };
+        if !types.contains(&is) && !types.contains(&wide) {
+            return Err(format!("{value} is no {types:?}"));
+        }
+    }
+    if let Some(array) = value.as_array() {
+        let length = array.len() as u64;
+        if length < schema["minItems"].as_u64().unwrap_or(0)
+            || length > schema["maxItems"].as_u64().unwrap_or(length)
+        {
+            return Err(format!("{value} has a wrong length"));
+        }
+        array.iter().try_for_each(|item| fits(item, &schema["items"], root))?;
+    }
+    let Some(table) = value.as_object() else { return Ok(()) };
+    for required in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        table.get(required).ok_or(format!("`{required}` is missing in {value}"))?;
+    }
+    for (key, inner) in table {
+        let known = schema["properties"].get(key).unwrap_or(&schema["additionalProperties"]);
+        if !known.is_object() {
+            return Err(format!("`{key}` is not in the schema"));
+        }
+        fits(inner, known, root).map_err(|error| format!("{key}: {error}"))?;
+    }
+    Ok(())
+}

@@ -2,6 +2,9 @@
 
 mod concentric;
 mod lattice;
+mod reckon;
+
+pub use reckon::reckon;
 
 use crate::point::{Dimension, Point};
 use crate::problem::ShapeError;

@@ -6,6 +6,6 @@ mod total;
 mod updated;
 
 pub use limits::{Cause, Diverged, Limits};
-pub use solver::Solver;
+pub use solver::{Seen, Solver};
 pub use total::{Total, TotalOptions, WaveSpeed};
 pub use updated::{Stepping, Updated, UpdatedOptions};

@@ -5,6 +5,29 @@ use crate::field::Quantity;
 use crate::formulation::State;
 use crate::pass::Now;
 
+/// What there is to see of one particle, at the present time.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Its id.
+    pub id: u32,
+    /// Index of its body.
+    pub body: u32,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Reference position, m.
+    pub reference: [f64; 3],
+    /// Displacement, m.
+    pub displacement: [f64; 3],
+    /// Velocity, m/s.
+    pub velocity: [f64; 3],
+    /// Energy dissipated since the start, J.
+    pub dissipated: f64,
+    /// Work done from outside since the start, J.
+    pub external_work: f64,
+    /// Stress and energy.
+    pub state: State,
+}
+
 /// Bodies that one formulation advances: one virtual call for each half of a step.
 pub trait Solver: Send {
     /// 2 or 3.
@@ -65,4 +88,20 @@ pub trait Solver: Send {
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;
+    /// Shows every particle, place by place: one virtual call for all of them.
+    fn show(&self, to: &mut dyn FnMut(&Seen)) {
+        for (place, &id) in self.ids().iter().enumerate() {
+            to(&Seen {
+                id,
+                body: self.scalar(Quantity::Body, place) as u32,
+                mass: self.scalar(Quantity::Mass, place),
+                reference: self.read(Quantity::ReferencePosition, place),
+                displacement: self.read(Quantity::Displacement, place),
+                velocity: self.read(Quantity::Velocity, place),
+                dissipated: self.scalar(Quantity::Dissipated, place),
+                external_work: self.scalar(Quantity::ExternalWork, place),
+                state: self.state(place),
+            });
+        }
+    }
 }

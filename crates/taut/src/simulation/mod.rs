@@ -8,7 +8,7 @@ pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body
 pub use particles::{Point, total, updated};
 pub use snapshot::{Snapshot, Totals};
 
-pub use crate::integrator::Solver;
+pub use crate::integrator::{Seen, Solver};
 
 use crate::integrator::Diverged;
 use crate::pass::Now;
@@ -33,16 +33,31 @@ impl Simulation {
     ///
     /// # Errors
     /// If the initial state is not finite.
-    pub fn start(mut solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Result<Self, Diverged> {
-        for solver in &mut solvers {
+    pub fn start(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Result<Self, Diverged> {
+        let mut simulation = Self::new(solvers, drives);
+        simulation.begin()?;
+        Ok(simulation)
+    }
+
+    /// A simulation that has yet to [`begin`](Self::begin).
+    #[must_use]
+    pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
+        Self { solvers, drives, time: 0.0, dt: 0.0, steps: 0 }
+    }
+
+    /// Prepares the first step; once.
+    ///
+    /// # Errors
+    /// If the initial state is not finite. It can be looked at all the same.
+    pub fn begin(&mut self) -> Result<(), Diverged> {
+        for solver in &mut self.solvers {
             solver.start()?;
         }
-        let mut simulation = Self { solvers, drives, time: 0.0, dt: 0.0, steps: 0 };
-        simulation.dt = simulation.stable_step();
-        for solver in &mut simulation.solvers {
-            solver.begin(simulation.dt);
+        self.dt = self.stable_step();
+        for solver in &mut self.solvers {
+            solver.begin(self.dt);
         }
-        Ok(simulation)
+        Ok(())
     }
 
     fn stable_step(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! What a simulation looks like from outside, at one instant.
 
-use super::{Simulation, Solver};
-use crate::field::Quantity;
+use super::{Seen, Simulation};
+use crate::math::Tensor;
 
 /// All particles of a simulation in the order of their ids.
 #[derive(Clone, Debug, Default)]
@@ -43,20 +43,17 @@ impl Snapshot {
         self.reference.iter().zip(&self.displacement).map(|(x, u)| std::array::from_fn(|i| x[i] + u[i]))
     }
 
-    fn take(&mut self, solver: &dyn Solver, first: usize) {
-        let flat = |t: crate::math::Tensor<f64, 3>| std::array::from_fn(|k| t[k / 3][k % 3]);
-        for (place, &id) in solver.ids().iter().enumerate() {
-            let i = first + id as usize;
-            let state = solver.state(place);
-            self.body[i] = solver.scalar(Quantity::Body, place) as u32;
-            self.reference[i] = solver.read(Quantity::ReferencePosition, place);
-            self.displacement[i] = solver.read(Quantity::Displacement, place);
-            self.velocity[i] = solver.read(Quantity::Velocity, place);
-            self.density[i] = state.density;
-            self.cauchy[i] = flat(state.cauchy);
-            self.von_mises[i] = state.cauchy.von_mises();
-            self.deformation[i] = state.deformation.map_or([0.0; 9], flat);
-        }
+    fn take(&mut self, i: usize, seen: &Seen) {
+        let flat = |t: Tensor<f64, 3>| std::array::from_fn(|k| t[k / 3][k % 3]);
+        let state = &seen.state;
+        self.body[i] = seen.body;
+        self.reference[i] = seen.reference;
+        self.displacement[i] = seen.displacement;
+        self.velocity[i] = seen.velocity;
+        self.density[i] = state.density;
+        self.cauchy[i] = flat(state.cauchy);
+        self.von_mises[i] = state.cauchy.von_mises();
+        self.deformation[i] = state.deformation.map_or([0.0; 9], flat);
     }
 }
 
@@ -78,22 +75,17 @@ pub struct Totals {
 }
 
 impl Totals {
-    fn add(&mut self, solver: &dyn Solver) {
-        for place in 0..solver.len() {
-            let m = solver.scalar(Quantity::Mass, place);
-            let v = solver.read(Quantity::Velocity, place);
-            let (x0, u) =
-                (solver.read(Quantity::ReferencePosition, place), solver.read(Quantity::Displacement, place));
-            let x: [f64; 3] = std::array::from_fn(|i| x0[i] + u[i]);
-            self.kinetic += 0.5 * m * v.iter().map(|c| c * c).sum::<f64>();
-            self.strain += solver.state(place).strain_energy;
-            self.dissipated += solver.scalar(Quantity::Dissipated, place);
-            self.external_work += solver.scalar(Quantity::ExternalWork, place);
-            for i in 0..3 {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                self.momentum[i] += m * v[i];
-                self.angular_momentum[i] += m * (x[j] * v[k] - x[k] * v[j]);
-            }
+    fn add(&mut self, seen: &Seen) {
+        let (m, v) = (seen.mass, seen.velocity);
+        let x: [f64; 3] = std::array::from_fn(|i| seen.reference[i] + seen.displacement[i]);
+        self.kinetic += 0.5 * m * v.iter().map(|c| c * c).sum::<f64>();
+        self.strain += seen.state.strain_energy;
+        self.dissipated += seen.dissipated;
+        self.external_work += seen.external_work;
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            self.momentum[i] += m * v[i];
+            self.angular_momentum[i] += m * (x[j] * v[k] - x[k] * v[j]);
         }
     }
 }
@@ -111,15 +103,21 @@ impl Simulation {
         self.len() == 0
     }
 
-    /// Fills `snapshot` with the present state. Ids of the bodies of later solvers follow those of earlier ones.
-    pub fn snapshot(&self, snapshot: &mut Snapshot) {
+    /// Fills `snapshot` with the present state, and adds it up. Ids of the bodies of later solvers follow those of
+    /// earlier ones.
+    pub fn snapshot(&self, snapshot: &mut Snapshot) -> Totals {
         snapshot.resize(self.len());
         snapshot.time = self.time;
+        let mut totals = Totals::default();
         let mut first = 0;
         for solver in &self.solvers {
-            snapshot.take(solver.as_ref(), first);
+            solver.show(&mut |seen| {
+                snapshot.take(first + seen.id as usize, seen);
+                totals.add(seen);
+            });
             first += solver.len();
         }
+        totals
     }
 
     /// Energies and momenta now.
@@ -127,7 +125,7 @@ impl Simulation {
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();
         for solver in &self.solvers {
-            totals.add(solver.as_ref());
+            solver.show(&mut |seen| totals.add(seen));
         }
         totals
     }

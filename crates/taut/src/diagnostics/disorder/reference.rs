@@ -133,6 +133,11 @@ impl<const D: usize> Reference<D> {
         Ok(&self.room.f)
     }
 
+    /// The deformation gradients of the state that was looked at last; zero before the first one.
+    pub fn last_deformation(&self) -> &[[[f64; D]; D]] {
+        &self.room.f
+    }
+
     fn check(&self, x: [&[f64]; D]) -> Result<(), DisorderError> {
         for column in x {
             length("a column of positions", column.len(), self.dp.len())?;

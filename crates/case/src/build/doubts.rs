@@ -1,0 +1,132 @@
+//! What is doubtful about a case once its particles are there.
+
+use super::bodies::{Group, padded};
+use super::shapes;
+use crate::{Case, Constraint, Fill, ShapeSpec};
+use taut::neighbours::{Adjacency, Search};
+
+/// Fewer particles than this across a part do not bend as a solid does.
+const LEAST_ACROSS: usize = 4;
+
+/// Beyond this share of the wave speed impacts are no longer those of a nearly incompressible solid, and particles may pass
+/// into each other.
+const FAST: f64 = 0.3;
+
+/// All doubts.
+pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>], across: &[usize]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if groups.len() > 1 {
+        warnings.push(
+            "bodies of different solvers do not touch each other: contact is between updated Lagrangian bodies only"
+                .to_string(),
+        );
+    }
+    warnings.extend(thin(case, across));
+    warnings.extend(lost::<D>(case));
+    warnings.extend(overlap(case, groups));
+    warnings.extend(fast(case, groups));
+    warnings
+}
+
+fn thin(case: &Case, across: &[usize]) -> Vec<String> {
+    let thin = case.bodies.iter().zip(across).filter(|(_, across)| **across < LEAST_ACROSS);
+    thin.map(|(body, across)| {
+        format!(
+            "body `{}` has {across} particles across its thinnest part: at least {LEAST_ACROSS} are needed; choose a smaller spacing",
+            body.name
+        )
+    })
+    .collect()
+}
+
+fn overlap<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Option<String> {
+    let points: Vec<_> = groups.iter().flat_map(|g| &g.points).collect();
+    let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
+    let mut list = Adjacency::default();
+    let x = std::array::from_fn(|i| columns[i].as_slice());
+    Search::<D>::new().pairs(x, 0.5 * case.spacing, None, &mut list).ok()?;
+    let meets = |a: usize| list.of(a).iter().any(|&b| points[b as usize].body != points[a].body);
+    let count = (0..points.len()).filter(|&a| meets(a)).count();
+    (count > 0).then(|| {
+        format!(
+            "{count} particles of different bodies are closer than half a spacing: the bodies overlap at the start"
+        )
+    })
+}
+
+/// Bodies that start faster, or are driven faster at the start, than a fair share of their wave speed.
+fn fast<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<String> {
+    let mut speeds = vec![0.0_f64; case.bodies.len()];
+    for point in groups.iter().flat_map(|g| &g.points) {
+        let x = padded(point.x);
+        let mut speed = point.v.norm_squared().sqrt();
+        for boundary in &case.boundaries {
+            let Constraint::Velocity(fields) = &boundary.constraint else { continue };
+            let mine = boundary.body.is_none_or(|b| b as u32 == point.body);
+            if mine && shapes::shape(&boundary.region).contains(x) {
+                let driven = fields.iter().flatten().map(|f| f.eval(x, 0.0).powi(2)).sum::<f64>().sqrt();
+                speed = speed.max(driven);
+            }
+        }
+        let fastest = &mut speeds[point.body as usize];
+        *fastest = fastest.max(speed);
+    }
+    let told = case.bodies.iter().zip(speeds).filter_map(|(body, speed)| {
+        let c = case.material_of(body)?.wave_speed();
+        (speed > FAST * c).then(|| {
+            format!(
+                "body `{}` moves at {speed:.4} m/s at the start, {:.2} of its wave speed {c:.4} m/s: beyond {FAST} results are doubtful",
+                body.name,
+                speed / c
+            )
+        })
+    });
+    told.collect()
+}
+
+/// Parts of shapes that the lattice does not see: members of unions without a particle, holes that hold none.
+fn lost<const D: usize>(case: &Case) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for body in &case.bodies {
+        let Fill::Lattice { origin } = body.fill else { continue };
+        let empty = |shape: &geometry::Shape| {
+            let fill = geometry::Fill::Lattice { origin };
+            let filled = geometry::fill(shape, &fill, case.spacing, shapes::dimension::<D>());
+            matches!(filled, Err(geometry::FillError::Empty { .. }))
+        };
+        let mut count = [0, 0];
+        look(&body.shape, &empty, &mut count);
+        for (count, what) in
+            count.into_iter().zip(["part of its shape holds no particle", "hole takes no particle away"])
+        {
+            if count > 0 {
+                warnings.push(format!(
+                    "body `{}` loses features on the lattice: {count} {what}; choose a smaller spacing",
+                    body.name
+                ));
+            }
+        }
+    }
+    warnings
+}
+
+/// Counts the parts of unions and the holes that are lost.
+fn look(shape: &ShapeSpec, empty: &impl Fn(&geometry::Shape) -> bool, count: &mut [usize; 2]) {
+    match shape {
+        ShapeSpec::Union(parts) => {
+            count[0] += parts.iter().filter(|part| empty(&shapes::shape(part))).count();
+            parts.iter().for_each(|part| look(part, empty, count));
+        }
+        ShapeSpec::Difference(parts) => {
+            let mut parts = parts.iter();
+            let Some(solid) = parts.next() else { return };
+            let solid_shape = shapes::shape(solid);
+            for hole in parts {
+                let both = geometry::Shape::Intersection(vec![solid_shape.clone(), shapes::shape(hole)]);
+                count[1] += usize::from(empty(&both));
+            }
+            look(solid, empty, count);
+        }
+        _ => {}
+    }
+}

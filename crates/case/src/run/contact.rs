@@ -1,0 +1,51 @@
+//! The first touch of two bodies.
+
+/// When the gap of two bodies falls below the support of the kernel, linear between samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Contact {
+    support: f64,
+    last: Option<(f64, f64)>,
+    /// When it was, s.
+    pub time: Option<f64>,
+}
+
+impl Contact {
+    /// No touch yet; bodies touch when they are closer than `support` (m).
+    pub fn new(support: f64) -> Self {
+        Self { support, last: None, time: None }
+    }
+
+    /// Whether the gap is still of interest.
+    pub fn is_awaited(&self) -> bool {
+        self.time.is_none()
+    }
+
+    /// Takes note of the gap (m) at a time, s.
+    pub fn look(&mut self, time: f64, gap: Option<f64>) {
+        let Some(gap) = gap.filter(|_| self.is_awaited()) else { return };
+        if gap < self.support {
+            let between = |(t, before): (f64, f64)| t + (time - t) * (before - self.support) / (before - gap);
+            self.time = Some(self.last.map_or(time, between));
+        }
+        self.last = Some((time, gap));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_touch_is_between_the_samples() {
+        let mut contact = Contact::new(1.0);
+        for (time, gap) in
+            [(0.0, None), (1.0, Some(3.0)), (2.0, Some(2.0)), (3.0, Some(0.0)), (4.0, Some(0.5))]
+        {
+            contact.look(time, gap);
+        }
+        assert_eq!(contact.time, Some(2.5));
+        let mut touching = Contact::new(1.0);
+        touching.look(0.0, Some(0.5));
+        assert_eq!(touching.time, Some(0.0));
+    }
+}
