@@ -18,7 +18,7 @@ use taut::run::{Among, Cpu, Relist, Run};
 
 const DP: f64 = 0.002;
 
-/// Particles without symmetry, in the order of a space-filling curve as in a run.
+/// Particles without symmetry, stored as in a run.
 fn particles<const D: usize>(n: [usize; D]) -> Particles<D> {
     let points = disordered(n, DP, 0.2);
     let mut p = Particles::new(points.len());

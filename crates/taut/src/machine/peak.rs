@@ -1,6 +1,8 @@
 //! Loops that do nothing but multiply and add, or nothing but move memory: the two limits of any other loop.
 
 use crate::math::Lanes;
+#[cfg(target_arch = "aarch64")]
+use crate::math::neon;
 use crate::math::plain::{Plain4, PlainSingle8};
 #[cfg(target_arch = "x86_64")]
 use crate::math::{avx2, avx512};
@@ -25,7 +27,9 @@ pub fn multiply_add_double(set: InstructionSet, rounds: u32) -> (usize, f64) {
         // SAFETY: this variant is only made where the machine has AVX-512.
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx512 => (avx512::F64x8::N, unsafe { with_avx512::<avx512::F64x8>(rounds) }),
-        _ => (Plain4::N, chains::<Plain4>(rounds)),
+        #[cfg(target_arch = "aarch64")]
+        InstructionSet::Neon => (neon::F64x4::N, chains::<neon::F64x4>(rounds)),
+        InstructionSet::Plain => (Plain4::N, chains::<Plain4>(rounds)),
     }
 }
 
@@ -39,7 +43,9 @@ pub fn multiply_add_single(set: InstructionSet, rounds: u32) -> (usize, f64) {
         // SAFETY: this variant is only made where the machine has AVX-512.
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx512 => (avx512::F32x16::N, unsafe { with_avx512::<avx512::F32x16>(rounds) }),
-        _ => (PlainSingle8::N, chains::<PlainSingle8>(rounds)),
+        #[cfg(target_arch = "aarch64")]
+        InstructionSet::Neon => (neon::F32x8::N, chains::<neon::F32x8>(rounds)),
+        InstructionSet::Plain => (PlainSingle8::N, chains::<PlainSingle8>(rounds)),
     }
 }
 

@@ -1,5 +1,5 @@
 //! Who is near whom: a cell grid, the list of all pairs closer than a radius, a trivial search that the tests
-//! compare with, and the order of particles along a space-filling curve.
+//! compare with, and the order in which particles are stored.
 //!
 //! Positions come as columns, `x: [&[f64]; D]` with one entry per particle and axis. Every result is the same
 //! for any number of threads.

@@ -1,4 +1,4 @@
-//! Particles as columns: one array for every number of every field, in the order of a space-filling curve.
+//! Particles as columns: one array for every number of every field, in an order in which neighbours are near each other.
 
 use crate::field::{Quantity, Record};
 use crate::math::Vector;
