@@ -43,7 +43,7 @@ for line in "10 25.8 43.0" "20 66.3 139.5" "30 130.1 333.0"; do
 done
 for line in "6 3 1 5.10 4.98" "12 3 1 103.89 99.74" "24 0.3 10 1777.46 1746.83"; do
     read -r resolution end scale nested free <<<"$line"
-    at=(--set "parameters.resolution=$resolution" --set "time.end=$end" --set 'time_step="paper"' "${quiet[@]}")
+    at=(--set "parameters.resolution=$resolution" --set "time.end=$end" --set 'time.step="paper"' "${quiet[@]}")
     row "TL Table 3, H/dp = $resolution, nested" "$nested" 8 "$scale" tl-bending-column "${at[@]}" --formulation tl-nested
     row "TL Table 3, H/dp = $resolution, hourglass-free" "$free" 8 "$scale" tl-bending-column "${at[@]}"
 done

@@ -84,6 +84,7 @@ fn taut(folder: &Path, arguments: &[&str]) -> Ended {
     let done = Command::new(env!("CARGO_BIN_EXE_taut"))
         .args(arguments)
         .current_dir(folder)
+        .env("MALLOC_ARENA_MAX", "1")
         .stdin(Stdio::null())
         .output()
         .expect("the program can be started");
