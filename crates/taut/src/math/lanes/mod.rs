@@ -204,7 +204,7 @@ macro_rules! operators {
 }
 
 /// Lane by lane, for the few functions that have no instruction.
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! each_lane {
     ($lanes:ty, $e:ty, $n:literal) => {
         impl $lanes {
@@ -221,8 +221,10 @@ macro_rules! each_lane {
     };
 }
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use each_lane;
 #[cfg(target_arch = "x86_64")]
-use {each_lane, operators};
+use operators;
 
 #[cfg(test)]
 mod tests;

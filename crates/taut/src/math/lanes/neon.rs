@@ -1,6 +1,6 @@
 //! Lanes of NEON, which every 64-bit ARM processor has: two registers side by side, so that there are four doubles or eight floats.
 
-use super::Lanes;
+use super::{Lanes, each_lane};
 use crate::math::Real;
 use std::arch::aarch64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -35,18 +35,7 @@ macro_rules! real {
             }
         }
 
-        impl $lanes {
-            /// Lane by lane, for the few functions that have no instruction.
-            #[inline(always)]
-            fn each(self, f: impl Fn($e) -> $e) -> Self {
-                let mut a: [$e; $n] = [0.0; $n];
-                // SAFETY: as many numbers as lanes.
-                unsafe {
-                    self.store(a.as_mut_ptr());
-                    Self::load(a.map(f).as_ptr())
-                }
-            }
-        }
+        each_lane!($lanes, $e, $n);
 
         // SAFETY of every block below: as above.
         impl Real for $lanes {
