@@ -91,8 +91,11 @@ pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Res
 
 /// As many threads as there are cores, but none without particles enough.
 fn useful_threads(particles: usize) -> usize {
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    available.min((particles / PARTICLES_PER_THREAD).max(1))
+    cores().min((particles / PARTICLES_PER_THREAD).max(1))
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 fn pool(threads: usize) -> Result<rayon::ThreadPool, RunError> {
@@ -119,10 +122,11 @@ fn in_pool(
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives);
     let (outbox, inbox) = sheets();
+    let shared = (threads.current_num_threads() >= cores()).then_some(threads);
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
-        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, threads)));
+        scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
         let march = March { case, simulation: &mut simulation, watcher, clock };
         march.finish(Recorder::new(case, probes, outbox))
     });

@@ -68,8 +68,9 @@ impl<'a> Writer<'a> {
         self.contact.time
     }
 
-    /// Writes down every sheet that comes, until the run is over. What has to be computed goes to the threads of the run, in
-    /// between its sweeps: a thread more than there are cores would hold up whole sweeps. This one waits for the disk.
+    /// Writes down every sheet that comes, until the run is over. What has to be computed is computed here if there is a core to spare;
+    /// otherwise it goes to the `threads` of the run, in between its sweeps: a thread more than there are cores would hold up whole sweeps.
+    /// This one then only waits for the disk.
     ///
     /// # Errors
     /// A write that fails, particles whose disorder cannot be measured.
@@ -77,11 +78,14 @@ impl<'a> Writer<'a> {
         mut self,
         inbox: Inbox,
         watcher: &Watcher<'_>,
-        threads: &ThreadPool,
+        threads: Option<&ThreadPool>,
     ) -> Result<Self, RunError> {
         while let Some(sheet) = inbox.next() {
             self.tabulate(&sheet)?;
-            let frame = threads.install(|| self.digest(&sheet, watcher))?;
+            let frame = match threads {
+                Some(threads) => threads.install(|| self.digest(&sheet, watcher))?,
+                None => self.digest(&sheet, watcher)?,
+            };
             inbox.back(sheet);
             if let Some((frame, bytes)) = frame {
                 self.frames.store(&frame, &bytes)?;
