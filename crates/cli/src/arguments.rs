@@ -1,7 +1,9 @@
 //! The command line.
 
+use case::{Dimension, UnitQuantity};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 use taut::simulation::Numbers;
 
 /// Meshless solver for solids that stretch, twist, hit and bounce.
@@ -102,9 +104,24 @@ pub struct RunOptions {
     /// Numbers in the sums over neighbours; what is integrated in time is double always
     #[arg(long, default_value = "double")]
     pub precision: Precision,
-    /// Go on from the last checkpoint (later)
-    #[arg(long)]
-    pub resume: bool,
+    /// Go on with the run that was interrupted in DIR, from its last checkpoint (or from the checkpoint that is named)
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["case", "set", "formulation", "out", "precision"])]
+    pub resume: Option<PathBuf>,
+    /// Wall time between two checkpoints, such as "30 s" or "1 h" [default: 5 min]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = wall_time)]
+    pub checkpoint_every: Option<Duration>,
+}
+
+/// A duration with its unit; a plain number counts seconds.
+fn wall_time(text: &str) -> Result<Duration, String> {
+    let wanted = "a time is wanted, such as \"30 s\", \"5 min\" or \"1 h\"";
+    let seconds = match (text.trim().parse::<f64>(), UnitQuantity::parse(text.trim())) {
+        (Ok(seconds), _) => seconds,
+        (_, Some(Ok(quantity))) if quantity.dimension == Dimension::TIME => quantity.value,
+        (_, Some(Err(error))) => return Err(format!("{error}; {wanted}")),
+        _ => return Err(wanted.to_string()),
+    };
+    Duration::try_from_secs_f64(seconds).map_err(|_| wanted.to_string())
 }
 
 /// What to validate, and how.

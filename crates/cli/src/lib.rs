@@ -1,6 +1,6 @@
 //! The taut program, callable as a function.
 //!
-//! Exit status: 0 done, 1 the run failed, 2 the input is wrong.
+//! Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 or 143 stopped by Ctrl-C or a request to end.
 
 #[macro_use]
 mod say;
@@ -17,6 +17,7 @@ mod pictures;
 mod progress;
 mod run;
 mod schema;
+mod signals;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -31,6 +32,8 @@ pub(crate) enum Failure {
     Input(String),
     /// The run failed: status 1.
     Run(String),
+    /// The run was stopped, with this status.
+    Stopped(String, u8),
 }
 
 /// Runs the program with these arguments (the first is its name).
@@ -63,6 +66,10 @@ where
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Run(message)) => stop(&message, 1),
+        Err(Failure::Stopped(message, status)) => {
+            complain!("{message}");
+            ExitCode::from(status)
+        }
         Err(Failure::Input(message)) => stop(&message, 2),
     }
 }

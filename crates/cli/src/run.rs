@@ -6,28 +6,44 @@ use crate::builtin::{colour, read};
 use crate::pictures;
 use crate::progress::Watcher;
 use crate::say;
+use crate::signals;
 use case::Case;
-use case::run::{RunError, Settings, run as run_case};
+use case::run::{Checkpoints, Interrupted, ResumeError, RunError, Settings};
+use case::run::{resume as resume_case, run as run_case};
 use output::Summary;
-use std::path::PathBuf;
+use output::checkpoint::kept;
+use std::path::{Path, PathBuf};
 
-/// Runs a case, draws its pictures, says where everything is.
+/// Runs a case, or goes on with one; draws its pictures, says where everything is.
 pub fn run(options: &RunOptions) -> Result<(), Failure> {
-    refuse_later(options)?;
-    let case = read(&options.case)?;
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&case.name));
-    let settings = Settings {
-        out: out.clone(),
-        threads: options.threads.map(usize::from),
-        numbers: options.precision.into(),
-    };
+    let signals = signals::watch();
+    let checkpoints = Checkpoints { every: options.checkpoint_every, stop: signals.stop.clone() };
+    let threads = options.threads.map(usize::from);
     let mut watcher = Watcher::new(options.quiet);
-    if !options.quiet {
-        say::warnings(&case);
+    let (case, out, ended);
+    match &options.resume {
+        Some(place) => {
+            let run = Interrupted::find(place).map_err(unusable)?;
+            if !options.quiet {
+                let (time, step) = run.stands_at();
+                complain!("going on from {}: t = {time:.6e} s, step {step}", run.checkpoint().display());
+            }
+            (case, out) = (run.case.clone(), run.results().to_path_buf());
+            ended = resume_case(run, threads, &checkpoints, &mut watcher);
+        }
+        None => {
+            case = read(&options.case)?;
+            out = options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&case.name));
+            let numbers = options.precision.into();
+            let settings = Settings { out: out.clone(), threads, numbers, checkpoints };
+            if !options.quiet {
+                say::warnings(&case);
+            }
+            ended = run_case(&case, &settings, &mut watcher);
+        }
     }
-    let ended = run_case(&case, &settings, &mut watcher);
     watcher.finish();
-    if matches!(ended, Ok(_) | Err(RunError::Diverged { .. })) {
+    if matches!(ended, Ok(_) | Err(RunError::Diverged { .. } | RunError::Interrupted { .. })) {
         pictures::draw(&case, &watcher.kept, &out)?;
     }
     match ended {
@@ -38,16 +54,27 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
             Ok(())
         }
         Err(RunError::Case(error)) => Err(Failure::Input(error.render(colour()))),
-        Err(error) if error.is_input() => Err(Failure::Input(error.to_string())),
-        Err(error) => Err(Failure::Run(error.to_string())),
+        Err(error @ RunError::Interrupted { .. }) => {
+            Err(Failure::Stopped(error.to_string(), signals.status()))
+        }
+        Err(error) if error.is_input() => Err(Failure::Input(format!("{error}{}", way_on(&out)))),
+        Err(error) => Err(Failure::Run(format!("{error}{}", way_on(&out)))),
     }
 }
 
-fn refuse_later(options: &RunOptions) -> Result<(), Failure> {
-    if options.resume {
-        return Err(Failure::Input("`--resume` comes in a later version.".to_string()));
+fn unusable(error: ResumeError) -> Failure {
+    match error {
+        ResumeError::Case(error) => Failure::Input(error.render(colour())),
+        error => Failure::Input(error.to_string()),
     }
-    Ok(())
+}
+
+/// What can be done where a run has left a checkpoint, if it has.
+fn way_on(out: &Path) -> String {
+    match kept(out).is_empty() {
+        true => String::new(),
+        false => format!("\nto go on from the last checkpoint there: taut run --resume {}", out.display()),
+    }
 }
 
 fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {

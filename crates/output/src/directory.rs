@@ -1,7 +1,7 @@
 //! The directory of one run, and writing a file into it in one step.
 
-use std::fs;
-use std::io::{self, Write};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -16,6 +16,8 @@ use crate::OutputError;
 #[derive(Debug)]
 pub struct ResultDir {
     path: PathBuf,
+    /// Locked while a run writes here; a process that ends, however it ends, lets go of it.
+    _lock: Option<File>,
 }
 
 impl ResultDir {
@@ -29,7 +31,36 @@ impl ResultDir {
             return Err(OutputError::taken(path));
         }
         fs::create_dir_all(path).map_err(|cause| OutputError::write(path, cause))?;
-        Ok(Self { path: path.to_path_buf() })
+        let lock = File::open(path).ok().filter(|directory| directory.try_lock().is_ok());
+        Ok(Self { path: path.to_path_buf(), _lock: lock })
+    }
+
+    /// Opens the directory of a run that was interrupted, to go on with it.
+    ///
+    /// # Errors
+    /// [`OutputError::Read`] if there is no such directory, [`OutputError::Busy`] if a run is still writing there.
+    pub fn reopen(path: &Path) -> Result<Self, OutputError> {
+        if !path.is_dir() {
+            return Err(OutputError::read(path, "there is no such directory"));
+        }
+        let directory = File::open(path).map_err(|cause| OutputError::read(path, cause))?;
+        match directory.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(OutputError::Busy { path: path.to_path_buf() }),
+            // Some file systems know no locks.
+            Ok(()) | Err(TryLockError::Error(_)) => {
+                Ok(Self { path: path.to_path_buf(), _lock: Some(directory) })
+            }
+        }
+    }
+
+    /// Removes what a run that was killed had begun to write: temporary files, nothing else.
+    pub fn sweep(&self) {
+        for folder in ["", "particles", "checkpoint"] {
+            let Ok(entries) = fs::read_dir(self.path.join(folder)) else { continue };
+            let begun = entries.flatten().filter(|e| e.file_name().to_string_lossy().starts_with(UNFINISHED));
+            // What cannot be removed does no harm.
+            begun.for_each(|entry| drop(fs::remove_file(entry.path())));
+        }
     }
 
     /// Where the results are.
@@ -94,16 +125,41 @@ pub(crate) fn checked(name: &str) -> Result<&str, OutputError> {
 /// # Errors
 /// [`OutputError::Write`] with the name of the final file; the temporary one is removed.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let write = || -> io::Result<()> {
-        let mut file = new_file_options().tempfile_in(parent)?;
-        file.write_all(bytes)?;
-        // Network file systems report a full disk only when asked to store the data for good.
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|refused| refused.error)?;
-        Ok(())
+    write_beside(path, |file| file.write_all(bytes))
+        .map(drop)
+        .map_err(|cause| OutputError::write(path, cause))
+}
+
+/// The same with whatever `write` writes, and with the folder stored too: after a power cut the file is there, or the one before it.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub(crate) fn write_durably(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let stored = |file: &mut File| {
+        let mut buffered = BufWriter::new(file);
+        write(&mut buffered)?;
+        buffered.flush()
     };
-    write().map_err(|cause| OutputError::write(path, cause))
+    let done = write_beside(path, stored).and_then(|folder| match File::open(folder)?.sync_all() {
+        // Some systems store no folders for good.
+        Err(cause) if cause.kind() == io::ErrorKind::InvalidInput => Ok(()),
+        done => done,
+    });
+    done.map_err(|cause| OutputError::write(path, cause))
+}
+
+/// Writes beside `path`, then moves there; the folder.
+fn write_beside(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<&Path> {
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = new_file_options().tempfile_in(parent)?;
+    write(file.as_file_mut())?;
+    // Network file systems report a full disk only when asked to store the data for good.
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|refused| refused.error)?;
+    Ok(parent)
 }
 
 /// Reads what [`ResultDir::write_json`] wrote.
@@ -112,10 +168,13 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, OutputErr
     serde_json::from_slice(&text).map_err(|cause| OutputError::read(path, cause))
 }
 
+/// How the names of temporary files begin.
+const UNFINISHED: &str = ".unfinished-";
+
 /// Temporary files are private by default; results get the permissions that any new file gets.
 fn new_file_options() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".unfinished-");
+    builder.prefix(UNFINISHED);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -142,6 +201,20 @@ mod tests {
         fs::write(&file, "x").unwrap();
         assert!(matches!(ResultDir::create(&file), Err(OutputError::AlreadyExists { .. })));
         assert_eq!(fs::read(path.join("note.txt")).unwrap(), b"kept");
+    }
+
+    #[test]
+    fn one_run_writes_at_a_time_and_what_was_begun_is_swept() {
+        let scratch = tempfile::tempdir().unwrap();
+        let path = scratch.path().join("a");
+        assert!(ResultDir::reopen(&path).unwrap_err().to_string().contains("no such directory"));
+        let first = ResultDir::create(&path).unwrap();
+        assert!(matches!(ResultDir::reopen(&path), Err(OutputError::Busy { .. })));
+        drop(first);
+        fs::write(path.join(".unfinished-abc"), "torn").unwrap();
+        fs::write(path.join("kept"), "whole").unwrap();
+        ResultDir::reopen(&path).unwrap().sweep();
+        assert!(!path.join(".unfinished-abc").exists() && path.join("kept").exists());
     }
 
     #[test]

@@ -23,6 +23,12 @@ pub enum OutputError {
         /// What the operating system said.
         cause: io::Error,
     },
+    /// Another run is writing into the directory.
+    #[error("a run is writing into {}", path.display())]
+    Busy {
+        /// The directory.
+        path: PathBuf,
+    },
     /// A result file could not be opened, or is not what it should be.
     #[error("cannot read {}: {cause}", path.display())]
     Read {
@@ -53,6 +59,7 @@ impl OutputError {
         match self {
             Self::AlreadyExists { hint, .. } => hint,
             Self::Write { cause, .. } => hint_for(cause.kind()),
+            Self::Busy { .. } => "wait until it has ended, or stop it first",
             Self::Read { .. } => "check the path, and whether the run that should have written it finished",
             Self::Name { .. } => "use letters, digits, '-', '_' and '.', and begin with a letter or a digit",
             Self::Inconsistent { .. } => {

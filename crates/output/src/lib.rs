@@ -3,7 +3,8 @@
 //! Everything here takes plain data (numbers, names, units) and writes files; it knows no physics. The
 //! promise of this crate is that a result directory is readable at any moment, also when the run was
 //! killed or the disk filled up: every file but the probe tables is written beside its place and moved
-//! there in one step, and probe tables only grow at their end.
+//! there in one step, and probe tables only grow at their end. A [`checkpoint`] holds how long they were, so that a run that goes on
+//! drops what came after it.
 //!
 //! ```
 //! use output::{Array, Frame, ResultDir, Series, Values};
@@ -31,6 +32,7 @@ mod probe;
 mod series;
 mod vtp;
 
+pub mod checkpoint;
 pub mod manifest;
 pub mod summary;
 
@@ -38,7 +40,7 @@ pub use directory::{ResultDir, write_atomically};
 pub use error::OutputError;
 pub use frame::{Array, Frame, Values};
 pub use manifest::Manifest;
-pub use probe::{Column, ProbeTable, Table};
+pub use probe::{Column, Mark, ProbeTable, Table};
 pub use series::Series;
 pub use summary::Summary;
 pub use vtp::encoded_size;

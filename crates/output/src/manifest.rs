@@ -49,6 +49,29 @@ pub struct Manifest {
     pub precision: String,
     /// Where it ran.
     pub machine: Machine,
+    /// When it was interrupted and went on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub resumed: Vec<Resumed>,
+}
+
+/// A run that went on from a checkpoint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Resumed {
+    /// When, UTC.
+    pub at: String,
+    /// Step of the checkpoint.
+    pub step: u64,
+    /// Threads used from there on.
+    pub threads: usize,
+    /// Where it ran from there on.
+    pub machine: Machine,
+}
+
+impl Resumed {
+    /// Now, from this step.
+    pub fn now(step: u64, machine: Machine, threads: usize) -> Self {
+        Self { at: utc(SystemTime::now()), step, threads, machine }
+    }
 }
 
 impl Manifest {
@@ -62,6 +85,7 @@ impl Manifest {
             threads,
             precision: precision.to_string(),
             machine,
+            resumed: Vec::new(),
         }
     }
 

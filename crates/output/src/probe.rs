@@ -1,8 +1,11 @@
 //! What a probe saw, sample by sample, as a comma-separated table.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::Xxh3;
 
 use crate::directory::checked;
 use crate::{OutputError, ResultDir};
@@ -12,11 +15,21 @@ use crate::{OutputError, ResultDir};
 /// The first line names the columns, `time [s],x [m],y [m]`; numbers have as many digits as it takes to
 /// get the same `f64` back. Rows are buffered: [`flush`](ProbeTable::flush) with every frame, so that a
 /// killed run loses little.
-#[derive(Debug)]
 pub struct ProbeTable {
     path: PathBuf,
     file: BufWriter<File>,
     columns: usize,
+    bytes: u64,
+    sum: Xxh3,
+}
+
+/// How long a table was at some moment, and what was in it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Bytes.
+    pub bytes: u64,
+    /// XXH3 of them, hexadecimal.
+    pub sum: String,
 }
 
 impl ProbeTable {
@@ -28,7 +41,7 @@ impl ProbeTable {
     pub fn create(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let folder = results.path().join("probes");
         std::fs::create_dir_all(&folder).map_err(|cause| OutputError::write(&folder, cause))?;
-        let path = folder.join(format!("{}.csv", checked(name)?));
+        let path = table_path(results.path(), checked(name)?);
         let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
             Ok(file) => file,
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {
@@ -40,7 +53,8 @@ impl ProbeTable {
     }
 
     fn begin(path: PathBuf, file: File, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
-        let mut table = Self { path, file: BufWriter::new(file), columns: columns.len() };
+        let file = BufWriter::new(file);
+        let mut table = Self { path, file, columns: columns.len(), bytes: 0, sum: Xxh3::new() };
         let mut line = String::from("time [s]");
         for (name, unit) in columns {
             line += &format!(",{} [{}]", plain(name), plain(unit));
@@ -73,9 +87,63 @@ impl ProbeTable {
         self.file.flush().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    fn line(&mut self, line: &str) -> Result<(), OutputError> {
-        writeln!(self.file, "{line}").map_err(|cause| OutputError::write(&self.path, cause))
+    /// Stores the rows for good, and says how many bytes there are.
+    ///
+    /// # Errors
+    /// [`OutputError::Write`].
+    pub fn mark(&mut self) -> Result<Mark, OutputError> {
+        self.flush()?;
+        self.file.get_ref().sync_data().map_err(|cause| OutputError::write(&self.path, cause))?;
+        Ok(Mark { bytes: self.bytes, sum: hexadecimal(&self.sum) })
     }
+
+    /// Goes on with the table of a probe from where it was at `mark`: what was written later is dropped. The rows up to there.
+    ///
+    /// # Errors
+    /// As [`Table::read_until`], and [`OutputError::Write`].
+    pub fn reopen(results: &ResultDir, name: &str, mark: &Mark) -> Result<(Self, Table), OutputError> {
+        let path = table_path(results.path(), checked(name)?);
+        let (table, sum) = until(&path, mark)?;
+        let cut = || -> io::Result<File> {
+            let mut file = OpenOptions::new().write(true).open(&path)?;
+            file.set_len(mark.bytes)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(file)
+        };
+        let file = BufWriter::new(cut().map_err(|cause| OutputError::write(&path, cause))?);
+        let columns = table.columns.len();
+        Ok((Self { path, file, columns, bytes: mark.bytes, sum }, table))
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), OutputError> {
+        let line = format!("{line}\n");
+        self.sum.update(line.as_bytes());
+        self.bytes += line.len() as u64;
+        self.file.write_all(line.as_bytes()).map_err(|cause| OutputError::write(&self.path, cause))
+    }
+}
+
+fn hexadecimal(sum: &Xxh3) -> String {
+    format!("{:032x}", sum.digest128())
+}
+
+fn table_path(results: &Path, name: &str) -> PathBuf {
+    results.join("probes").join(format!("{name}.csv"))
+}
+
+/// The rows of a table up to a mark, and their checksum.
+fn until(path: &Path, mark: &Mark) -> Result<(Table, Xxh3), OutputError> {
+    let read = |cause: io::Error| OutputError::read(path, cause);
+    let mut text = Vec::new();
+    File::open(path).map_err(read)?.take(mark.bytes).read_to_end(&mut text).map_err(read)?;
+    let mut sum = Xxh3::new();
+    sum.update(&text);
+    if text.len() as u64 != mark.bytes || hexadecimal(&sum) != mark.sum {
+        return Err(OutputError::read(path, "it is no longer what it was at the checkpoint"));
+    }
+    let text = String::from_utf8(text).map_err(|error| OutputError::read(path, error))?;
+    let table = Table::parse(&text).map_err(|problem| OutputError::read(path, problem))?;
+    Ok((table, sum))
 }
 
 /// `text` without the characters that structure the table.
@@ -111,6 +179,14 @@ impl Table {
     pub fn read(path: &Path) -> Result<Self, OutputError> {
         let text = std::fs::read_to_string(path).map_err(|cause| OutputError::read(path, cause))?;
         Self::parse(&text).map_err(|problem| OutputError::read(path, problem))
+    }
+
+    /// Reads the table of the probe `name` in the directory `results` up to a mark.
+    ///
+    /// # Errors
+    /// [`OutputError::Read`] if it is not there, or is no longer what it was then; [`OutputError::Name`].
+    pub fn read_until(results: &Path, name: &str, mark: &Mark) -> Result<Self, OutputError> {
+        Ok(until(&table_path(results, checked(name)?), mark)?.0)
     }
 
     fn parse(text: &str) -> Result<Self, String> {
@@ -177,6 +253,36 @@ mod tests {
         assert!(matches!(ProbeTable::create(&results, "tip", &[]), Err(OutputError::AlreadyExists { .. })));
         assert!(matches!(ProbeTable::create(&results, "../tip", &[]), Err(OutputError::Name { .. })));
         assert!(matches!(table.push(0.0, &[1.0, 2.0]), Err(OutputError::Inconsistent { .. })));
+    }
+
+    #[test]
+    fn a_table_goes_on_from_its_mark_and_what_came_later_is_dropped() {
+        let scratch = tempfile::tempdir().unwrap();
+        let results = ResultDir::create(scratch.path()).unwrap();
+        let path = scratch.path().join("probes/tip.csv");
+        let mut table = ProbeTable::create(&results, "tip", &[("x", "m")]).unwrap();
+        table.push(0.0, &[1.0]).unwrap();
+        let mark = table.mark().unwrap();
+        for time in [1.0, 2.0] {
+            table.push(time, &[0.1 + time]).unwrap();
+        }
+        drop(table);
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, [&whole[..], b"3.0,4."].concat()).unwrap();
+        assert_eq!(Table::read_until(scratch.path(), "tip", &mark).unwrap().times, [0.0]);
+        let (mut table, before) = ProbeTable::reopen(&results, "tip", &mark).unwrap();
+        assert_eq!((before.times, &before.columns[0].values), (vec![0.0], &vec![1.0]));
+        for time in [1.0, 2.0] {
+            table.push(time, &[0.1 + time]).unwrap();
+        }
+        assert_eq!(table.mark().unwrap().bytes, whole.len() as u64);
+        assert_eq!(std::fs::read(&path).unwrap(), whole);
+        for other in ["time [s],x [m]\n0.0,2.0\n", "time [s],x [m]\n"] {
+            std::fs::write(&path, other).unwrap();
+            let error = ProbeTable::reopen(&results, "tip", &mark).map(|_| ()).unwrap_err();
+            assert!(error.to_string().contains("no longer what it was"), "{error}");
+            assert_eq!(std::fs::read(&path).unwrap(), other.as_bytes());
+        }
     }
 
     #[test]

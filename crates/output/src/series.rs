@@ -1,9 +1,14 @@
 //! The frames of a run as one time series for ParaView.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::{Frame, OutputError, ResultDir, vtp, write_atomically};
+
+const FOLDER: &str = "particles";
+const LIST: &str = "particles.pvd";
 
 /// Writes `particles/particles_000000.vtp`, ... and the list of them with their times,
 /// `particles/particles.pvd`, which is the file to open.
@@ -23,7 +28,44 @@ impl Series {
     /// # Errors
     /// As [`ResultDir::folder`].
     pub fn create(results: &ResultDir) -> Result<Self, OutputError> {
-        Ok(Self { folder: results.folder("particles")?, times: Vec::new(), encoder: vtp::Encoder::default() })
+        Ok(Self { folder: results.folder(FOLDER)?, times: Vec::new(), encoder: vtp::Encoder::default() })
+    }
+
+    /// Goes on with a series after its first frames, those at `times`: later ones are removed.
+    ///
+    /// # Errors
+    /// As [`Series::check`], and [`OutputError::Write`].
+    pub fn reopen(results: &ResultDir, times: Vec<f64>) -> Result<Self, OutputError> {
+        Self::check(results.path(), times.len())?;
+        let series = Self { folder: results.path().join(FOLDER), times, encoder: vtp::Encoder::default() };
+        // First the list: it must not name what is no longer there.
+        write_atomically(&series.folder.join(LIST), series.list().as_bytes())?;
+        for index in series.times.len().. {
+            let path = series.folder.join(file_name(index));
+            match fs::remove_file(&path) {
+                Ok(()) => {}
+                Err(cause) if cause.kind() == io::ErrorKind::NotFound => break,
+                Err(cause) => return Err(OutputError::write(&path, cause)),
+            }
+        }
+        Ok(series)
+    }
+
+    /// Whether the first frames of a series in the directory `results` are there, so many.
+    ///
+    /// # Errors
+    /// [`OutputError::Read`] with the first that is missing.
+    pub fn check(results: &Path, frames: usize) -> Result<(), OutputError> {
+        let mut paths = (0..frames).map(|index| results.join(FOLDER).join(file_name(index)));
+        match paths.find(|path| !path.is_file()) {
+            Some(path) => Err(OutputError::read(&path, "it is missing")),
+            None => Ok(()),
+        }
+    }
+
+    /// Times of the frames, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
     }
 
     /// Writes the next frame and lists it.
@@ -59,7 +101,7 @@ impl Series {
         let path = self.folder.join(file_name(self.times.len()));
         write_atomically(&path, bytes)?;
         self.times.push(frame.time);
-        write_atomically(&self.folder.join("particles.pvd"), self.list().as_bytes())
+        write_atomically(&self.folder.join(LIST), self.list().as_bytes())
     }
 
     /// How many frames have been written.
@@ -104,6 +146,24 @@ mod tests {
         let list = std::fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
         assert_eq!(list.matches("<DataSet").count(), 2);
         assert_eq!(std::fs::read_dir(scratch.path().join("particles")).unwrap().count(), 3);
+    }
+
+    #[test]
+    fn a_series_goes_on_after_its_first_frames() {
+        let scratch = tempfile::tempdir().unwrap();
+        let results = ResultDir::create(scratch.path()).unwrap();
+        let mut series = Series::create(&results).unwrap();
+        for time in [0.0, 0.1, 0.2, 0.3] {
+            series.write(&frame(time)).unwrap();
+        }
+        let mut series = Series::reopen(&results, vec![0.0, 0.1]).unwrap();
+        assert_eq!(fs::read_dir(scratch.path().join(FOLDER)).unwrap().count(), 3);
+        series.write(&frame(0.2)).unwrap();
+        assert_eq!(series.times(), [0.0, 0.1, 0.2]);
+        let list = fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
+        assert_eq!(list.matches("<DataSet").count(), 3);
+        let error = Series::reopen(&results, vec![0.0; 4]).unwrap_err();
+        assert!(error.to_string().contains("particles_000003.vtp"), "{error}");
     }
 
     #[test]

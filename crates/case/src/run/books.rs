@@ -40,6 +40,22 @@ impl Books<'_> {
         Ok(summary)
     }
 
+    /// Closes the books of a run that was asked to stop, for the time being; hands back what to report.
+    ///
+    /// # Errors
+    /// If the summary cannot be written.
+    pub fn stopped(mut self) -> Result<RunError, RunError> {
+        let results = self.results;
+        let checkpoint = match self.writer.kept.take() {
+            Some(Ok(path)) => Ok(path),
+            Some(Err(error)) => Err(format!("{error}\nhint: {}", error.hint())),
+            None => Err("it had not begun".to_string()),
+        };
+        let (time, step) = (self.simulation.time(), self.simulation.steps());
+        Summary { status: Status::Interrupted, ..self.summary() }.write(results)?;
+        Ok(RunError::Interrupted { time, step, results: results.path().to_path_buf(), checkpoint })
+    }
+
     /// Closes the books of a run that diverged; hands back the error to report.
     ///
     /// # Errors

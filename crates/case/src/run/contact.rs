@@ -15,6 +15,22 @@ impl Contact {
         Self { support, last: None, time: None }
     }
 
+    /// As numbers, to be kept; what is not known is no number.
+    pub fn saved(&self) -> [f64; 3] {
+        let (time, gap) = self.last.unwrap_or((f64::NAN, f64::NAN));
+        [time, gap, self.time.unwrap_or(f64::NAN)]
+    }
+
+    /// The same reach with what was kept; `None` if these are not its numbers.
+    pub fn restored(self, numbers: &[f64]) -> Option<Self> {
+        let &[time, gap, touch] = numbers else { return None };
+        Some(Self {
+            last: (!time.is_nan()).then_some((time, gap)),
+            time: (!touch.is_nan()).then_some(touch),
+            ..self
+        })
+    }
+
     /// Whether the gap is still of interest.
     pub fn is_awaited(&self) -> bool {
         self.time.is_none()
@@ -44,6 +60,10 @@ mod tests {
             contact.look(time, gap);
         }
         assert_eq!(contact.time, Some(2.5));
+        for kept in [contact, Contact::new(1.0)] {
+            let again = Contact::new(1.0).restored(&kept.saved()).expect("three numbers");
+            assert_eq!((again.last, again.time), (kept.last, kept.time));
+        }
         let mut touching = Contact::new(1.0);
         touching.look(0.0, Some(0.5));
         assert_eq!(touching.time, Some(0.0));

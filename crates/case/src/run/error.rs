@@ -2,7 +2,7 @@
 
 use crate::CaseError;
 use output::OutputError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use taut::diagnostics::disorder::DisorderError;
 use taut::integrator::Diverged;
 
@@ -26,6 +26,28 @@ pub enum RunError {
         diverged: Box<Diverged>,
         /// Where the results are.
         results: PathBuf,
+    },
+    /// Somebody asked the run to stop; what it had is in `results`.
+    #[error("{}", stopped(*time, *step, results, checkpoint))]
+    Interrupted {
+        /// Time, s.
+        time: f64,
+        /// Steps taken.
+        step: u64,
+        /// Where the results are.
+        results: PathBuf,
+        /// The checkpoint to go on from, or why there is none.
+        checkpoint: Result<PathBuf, String>,
+    },
+    /// A checkpoint does not fit the case that it claims to belong to.
+    #[error("cannot go on from {}: {reason}{hint}", path.display())]
+    Checkpoint {
+        /// The checkpoint.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+        /// What to do, on a line of its own.
+        hint: String,
     },
     /// The arrangement of particles could not be measured.
     #[error("the disorder of the particles cannot be measured: {0}")]
@@ -51,6 +73,19 @@ pub enum RunError {
     Threads(String),
 }
 
+/// What is said of a run that was asked to stop.
+fn stopped(time: f64, step: u64, results: &Path, checkpoint: &Result<PathBuf, String>) -> String {
+    let told = format!("stopped at t = {time:.6e} s, after step {step}");
+    match checkpoint {
+        Ok(path) => format!(
+            "{told}; the checkpoint is {}\nto go on: taut run --resume {}",
+            path.display(),
+            results.display()
+        ),
+        Err(why) => format!("{told}, but without a checkpoint: {why}"),
+    }
+}
+
 impl RunError {
     pub(super) fn threads(error: rayon::ThreadPoolBuildError) -> Self {
         Self::Threads(error.to_string())
@@ -61,7 +96,10 @@ impl RunError {
     pub fn is_input(&self) -> bool {
         matches!(
             self,
-            Self::Case(_) | Self::TooLarge { .. } | Self::Output { cause: OutputError::AlreadyExists { .. } }
+            Self::Case(_)
+                | Self::TooLarge { .. }
+                | Self::Checkpoint { .. }
+                | Self::Output { cause: OutputError::AlreadyExists { .. } | OutputError::Busy { .. } }
         )
     }
 }

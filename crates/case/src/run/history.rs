@@ -22,6 +22,37 @@ impl DisorderHistory {
         self.samples.push((time, sample));
     }
 
+    /// All samples as numbers, to be kept.
+    pub fn saved(&self) -> Vec<f64> {
+        let row = |(time, d): &(f64, disorder::Disorder)| {
+            let pieces = d.pieces as f64;
+            [*time, d.zigzag_rms, d.zigzag_99, d.zigzag_max, d.bond_min, d.spacing_min, d.broken, pieces]
+        };
+        self.samples.iter().flat_map(row).collect()
+    }
+
+    /// From numbers that were kept; `None` if they are not.
+    pub fn restored(numbers: &[f64]) -> Option<Self> {
+        let (rows, rest) = numbers.as_chunks::<8>();
+        let sample =
+            |&[time, zigzag_rms, zigzag_99, zigzag_max, bond_min, spacing_min, broken, pieces]: &[f64; 8]| {
+                let pieces = pieces as usize;
+                (
+                    time,
+                    disorder::Disorder {
+                        zigzag_rms,
+                        zigzag_99,
+                        zigzag_max,
+                        bond_min,
+                        spacing_min,
+                        broken,
+                        pieces,
+                    },
+                )
+            };
+        rest.is_empty().then(|| Self { samples: rows.iter().map(sample).collect() })
+    }
+
     fn worst(&self, bad: Bad, value: impl Fn(&disorder::Disorder) -> f64) -> Worst {
         let history: Vec<[f64; 2]> = self.samples.iter().map(|(t, d)| [*t, value(d)]).collect();
         let badness = |[_, v]: &[f64; 2]| if bad == Bad::Large { *v } else { -*v };
@@ -68,6 +99,8 @@ mod tests {
         for (time, zigzag, spacing) in [(0.0, 0.1, 1.0), (1.0, 0.3, 0.9), (2.0, 0.3, 0.8), (3.0, 0.2, 0.8)] {
             history.push(time, sample(zigzag, spacing));
         }
+        history = DisorderHistory::restored(&history.saved()).expect("rows of eight");
+        assert!(DisorderHistory::restored(&[0.0; 9]).is_none());
         let summary = history.summary();
         assert_eq!((summary.zigzag_rms.worst, summary.zigzag_rms.time), (0.3, 1.0));
         assert_eq!((summary.spacing_min.worst, summary.spacing_min.time), (0.8, 2.0));

@@ -1,6 +1,7 @@
 //! Running a case: the only time loop of the project.
 
 mod books;
+mod checkpoint;
 mod contact;
 pub mod curves;
 mod error;
@@ -9,28 +10,29 @@ mod history;
 mod measures;
 mod memory;
 mod recorder;
+mod setup;
 mod sheet;
 mod trial;
 mod watcher;
 mod writer;
 
+pub use checkpoint::{Checkpoints, INTERVAL, Interrupted, ResumeError, Stop};
 pub use error::RunError;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build};
 use books::Books;
-use output::manifest::Machine;
-use output::{Frame, Manifest, ResultDir, Summary};
+use checkpoint::Schedule;
+use output::{Frame, ResultDir, Summary};
 use recorder::Recorder;
+use setup::{Setup, again, anew};
 use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
 use taut::integrator::Diverged;
-use taut::run::InstructionSet;
 use taut::simulation::{Numbers, Simulation, Totals};
 use watcher::Watcher;
-use writer::Writer;
 
 /// How to run a case.
 #[derive(Clone, Debug)]
@@ -41,6 +43,8 @@ pub struct Settings {
     pub threads: Option<usize>,
     /// What sums over neighbours are computed with.
     pub numbers: Numbers,
+    /// When checkpoints are written.
+    pub checkpoints: Checkpoints,
 }
 
 /// Where a run stands.
@@ -78,15 +82,48 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// Runs a case and writes everything it leaves behind.
 ///
 /// # Errors
-/// A case that cannot be built, a result directory that is taken, a write that fails, a run that diverges; the last leaves its
-/// frames, probes and summary.
+/// A case that cannot be built, a result directory that is taken, a write that fails, a run that diverges or is asked to stop; the last
+/// two leave frames, probes and summary, and a run that was stopped a checkpoint.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
     let built = build(case, settings.numbers)?;
-    let threads = settings.threads.unwrap_or_else(|| useful_threads(built.particles())).max(1);
-    let pool = pool(threads)?;
+    let pool = pool_for(settings.threads, &built)?;
     let results = ResultDir::create(&settings.out)?;
-    observer.started(case, built.particles(), threads);
-    pool.install(|| in_pool(case, built, &results, (&pool, observer)))
+    observer.started(case, built.particles(), pool.current_num_threads());
+    for warning in &built.warnings {
+        observer.warned(warning);
+    }
+    pool.install(|| {
+        let setup = anew(case, &results, built)?;
+        in_pool((case, &results), setup, (&pool, &settings.checkpoints), observer)
+    })
+}
+
+/// Goes on with a run that was interrupted, to the end that it would have had: the same bits, on any number of threads.
+///
+/// # Errors
+/// As [`run`], and a checkpoint that does not fit the case.
+pub fn resume(
+    run: Interrupted,
+    threads: Option<usize>,
+    checkpoints: &Checkpoints,
+    observer: &mut dyn Observer,
+) -> Result<Summary, RunError> {
+    let Interrupted { case, numbers, notices, results, manifest, found } = run;
+    let built = build(&case, numbers)?;
+    let pool = pool_for(threads, &built)?;
+    observer.started(&case, built.particles(), pool.current_num_threads());
+    for notice in &notices {
+        observer.warned(notice);
+    }
+    pool.install(|| {
+        let setup = again((&case, manifest), &results, found, built)?;
+        in_pool((&case, &results), setup, (&pool, checkpoints), observer)
+    })
+}
+
+/// So many threads, or as many as the particles can use.
+fn pool_for(threads: Option<usize>, built: &Built) -> Result<rayon::ThreadPool, RunError> {
+    pool(threads.unwrap_or_else(|| useful_threads(built.particles())).max(1))
 }
 
 /// As many threads as there are cores, but none without particles enough.
@@ -103,42 +140,51 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, RunError> {
 }
 
 fn in_pool(
-    case: &Case,
-    built: Built,
-    results: &ResultDir,
-    (threads, observer): (&rayon::ThreadPool, &mut dyn Observer),
+    (case, results): (&Case, &ResultDir),
+    setup: Setup<'_>,
+    (threads, checkpoints): (&rayon::ThreadPool, &Checkpoints),
+    observer: &mut dyn Observer,
 ) -> Result<Summary, RunError> {
-    for warning in &built.warnings {
-        observer.warned(warning);
-    }
-    let machine = Machine::here(InstructionSet::best().name());
-    let precision = built.numbers.name();
-    Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
-        .write(results)?;
-    let Built { solvers, drives, probes, watch, numbers, warnings, .. } = built;
-    let writer = Writer::create(case, results, watch, warnings)?;
+    let Setup { mut simulation, probes, writer, remembered, before, numbers } = setup;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
-    let (watcher, clock) = (Watcher::new(observer), Instant::now());
-    let mut simulation = Simulation::new(solvers, drives);
+    let (watcher, clock) = (Watcher::new(observer), Clock { since: Instant::now(), before });
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
-        let march = March { case, simulation: &mut simulation, watcher, clock };
-        march.finish(Recorder::new(case, probes, outbox))
+        let march = March { case, simulation: &mut simulation, watcher, clock, checkpoints };
+        let recorder = Recorder::new(case, probes, outbox);
+        march.finish(match remembered {
+            Some(remembered) => recorder.remembering(remembered),
+            None => recorder,
+        })
     });
     let writer = written.transpose()?;
-    let (Some(writer), Ok((start, stopped))) = (writer, marched) else {
+    let (Some(writer), Ok((start, ended))) = (writer, marched) else {
         return Err(RunError::Writer);
     };
-    let wall = clock.elapsed().as_secs_f64();
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall };
-    match stopped {
-        None => books.done(),
-        Some(diverged) => Err(books.diverged(diverged)?),
+    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall: clock.wall() };
+    match ended {
+        Ended::Done => books.done(),
+        Ended::Stopped => Err(books.stopped()?),
+        Ended::Diverged(diverged) => Err(books.diverged(diverged)?),
+    }
+}
+
+/// The wall time of a run, with what it took before it was interrupted.
+#[derive(Clone, Copy)]
+struct Clock {
+    since: Instant,
+    before: f64,
+}
+
+impl Clock {
+    /// Wall time of the run so far, s.
+    fn wall(&self) -> f64 {
+        self.before + self.since.elapsed().as_secs_f64()
     }
 }
 
@@ -147,39 +193,66 @@ struct March<'a> {
     case: &'a Case,
     simulation: &'a mut Simulation,
     watcher: &'a Watcher<'a>,
-    clock: Instant,
+    clock: Clock,
+    checkpoints: &'a Checkpoints,
 }
 
-/// Totals at the start, and why the run stopped before its end.
-type Marched = Result<(Option<Totals>, Option<Diverged>), WriterGone>;
+/// Why the loop ended.
+enum Ended {
+    Done,
+    Stopped,
+    Diverged(Diverged),
+}
+
+/// Totals at the start, and why the loop ended.
+type Marched = Result<(Option<Totals>, Ended), WriterGone>;
 
 impl March<'_> {
     fn finish(mut self, mut recorder: Recorder<'_>) -> Marched {
-        let stopped = self.steps(&mut recorder)?;
+        let ended = self.steps(&mut recorder)?;
         let start = recorder.start;
-        match stopped {
-            None => recorder.end(self.simulation)?,
-            Some(_) => recorder.abandon(self.simulation)?,
+        match ended {
+            Ended::Done => recorder.end(self.simulation)?,
+            // A frame or a look that was not due would be missing in the run that goes on.
+            Ended::Stopped => recorder.checkpoint(self.simulation, self.clock.wall())?,
+            Ended::Diverged(_) => recorder.abandon(self.simulation)?,
         }
-        Ok((start, stopped))
+        Ok((start, ended))
     }
 
-    fn steps(&mut self, recorder: &mut Recorder<'_>) -> Result<Option<Diverged>, WriterGone> {
-        if let Err(diverged) = self.simulation.begin() {
-            return Ok(Some(diverged));
+    fn steps(&mut self, recorder: &mut Recorder<'_>) -> Result<Ended, WriterGone> {
+        if recorder.start.is_none() {
+            if let Err(diverged) = self.simulation.begin() {
+                return Ok(Ended::Diverged(diverged));
+            }
+            recorder.begin(self.simulation)?;
         }
-        recorder.begin(self.simulation)?;
         let end = self.case.time.end;
+        let mut schedule = Schedule::new(self.checkpoints.every);
         while self.simulation.time() < end {
+            if self.checkpoints.stop.is_requested() {
+                return Ok(Ended::Stopped);
+            }
             if let Err(diverged) = self.simulation.step() {
-                return Ok(Some(diverged));
+                return Ok(Ended::Diverged(diverged));
             }
             recorder.after_step(self.simulation)?;
-            let wall = self.clock.elapsed().as_secs_f64();
+            let wall = self.clock.wall();
             let progress =
                 Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
             self.watcher.with(|observer| observer.stepped(&progress));
+            self.keep(recorder, &mut schedule)?;
         }
-        Ok(None)
+        Ok(Ended::Done)
+    }
+
+    /// Writes a checkpoint if one is due.
+    fn keep(&self, recorder: &mut Recorder<'_>, schedule: &mut Schedule) -> Result<(), WriterGone> {
+        let began = self.clock.since.elapsed();
+        if schedule.is_due(began) {
+            recorder.checkpoint(self.simulation, self.clock.wall())?;
+            schedule.made(began, self.clock.since.elapsed());
+        }
+        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! What a run notes as it goes: it reads what is due off the simulation; the writer does the rest.
 
+use super::checkpoint::{self, Saving};
 use super::sheet::{Outbox, Sample, WriterGone};
 use crate::Case;
 use crate::build::ProbePoint;
@@ -17,11 +18,29 @@ pub struct Recorder<'a> {
 
 /// When what is due next, s.
 #[derive(Clone, Debug, Default)]
-struct Due {
+pub struct Due {
     frame: f64,
     disorder: f64,
     probes: Vec<f64>,
     framed: Option<f64>,
+}
+
+impl Due {
+    /// Of how many probes.
+    pub fn probes(&self) -> usize {
+        self.probes.len()
+    }
+
+    /// As numbers, to be kept; what is not known is no number.
+    pub fn saved(&self) -> Vec<f64> {
+        [&[self.frame, self.disorder, self.framed.unwrap_or(f64::NAN)], self.probes.as_slice()].concat()
+    }
+
+    /// From numbers that were kept; `None` if they are too few.
+    pub fn restored(numbers: &[f64]) -> Option<Self> {
+        let &[frame, disorder, framed, ref probes @ ..] = numbers else { return None };
+        Some(Self { frame, disorder, probes: probes.to_vec(), framed: (!framed.is_nan()).then_some(framed) })
+    }
 }
 
 impl<'a> Recorder<'a> {
@@ -29,6 +48,25 @@ impl<'a> Recorder<'a> {
     pub fn new(case: &'a Case, points: Vec<ProbePoint>, outbox: Outbox) -> Self {
         let due = Due { probes: vec![0.0; points.len()], ..Due::default() };
         Self { case, points, outbox, due, start: None }
+    }
+
+    /// The recorder of a run that goes on, with what a checkpoint remembered.
+    pub fn remembering(self, (due, start): (Due, Totals)) -> Self {
+        Self { due, start: Some(start), ..self }
+    }
+
+    /// Writes a checkpoint of this simulation now, between two of its steps; `wall` is the wall time of the run so far, s. Everything that
+    /// was noted before is on disk before it.
+    ///
+    /// # Errors
+    /// If the writer has stopped.
+    pub fn checkpoint(&mut self, simulation: &Simulation, wall: f64) -> Result<(), WriterGone> {
+        let Some(start) = &self.start else { return Ok(()) };
+        let mut draft = checkpoint::draft(simulation);
+        checkpoint::remember(&mut draft, &self.due, start);
+        let saving = Saving { draft, step: simulation.steps(), time: simulation.time(), wall };
+        self.outbox.sheet.saving = Some(saving);
+        self.outbox.post()
     }
 
     /// Notes the state before the first step.

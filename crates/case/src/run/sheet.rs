@@ -9,6 +9,7 @@
 //! There are two sheets, so memory is bounded: while one is written down the other is filled, and a run that is
 //! faster than its disk waits for a blank one.
 
+use super::checkpoint::Saving;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::Duration;
 use taut::simulation::{Snapshot, Totals};
@@ -45,20 +46,22 @@ pub struct Sheet {
     pub look: bool,
     /// Whether to write a frame.
     pub frame: bool,
+    /// The run's part of a checkpoint, if one is to be written.
+    pub saving: Option<Saving>,
 }
 
 impl Sheet {
     fn is_due(&self) -> bool {
-        self.look || self.frame || self.samples.len() >= FULL
+        self.look || self.frame || self.saving.is_some() || self.samples.len() >= FULL
     }
 
     fn is_empty(&self) -> bool {
-        self.samples.is_empty() && !self.look && !self.frame
+        self.samples.is_empty() && !self.look && !self.frame && self.saving.is_none()
     }
 
     fn wipe(&mut self) {
         self.samples.clear();
-        (self.look, self.frame) = (false, false);
+        (self.look, self.frame, self.saving) = (false, false, None);
     }
 }
 

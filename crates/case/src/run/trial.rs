@@ -1,5 +1,6 @@
 //! What a run will cost, from a few steps of it.
 
+use super::checkpoint::{INTERVAL, draft};
 use super::error::RunError;
 use super::frames::frame;
 use super::memory::{peak, present};
@@ -126,9 +127,11 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let kept = vec![last.0.clone(); if threads > 1 { 3 } else { 2 }];
     let bytes = output::encoded_size(&last.0)? as f64;
     let steps = (case.time.end / dt).ceil();
+    // A run that is long enough packs checkpoints.
+    let packed = (per_step * steps > INTERVAL.as_secs_f64()).then(|| draft(&simulation));
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
-    drop((sheet, last, kept));
+    drop((sheet, last, kept, packed));
     Ok(Estimate {
         particles,
         neighbours,

@@ -1,5 +1,6 @@
 //! What a run writes down, off the critical path: disorder, frames and tables.
 
+use super::checkpoint::{Books, Notes, Saving};
 use super::contact::Contact;
 use super::error::RunError;
 use super::frames::frame;
@@ -9,8 +10,12 @@ use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
 use crate::build::{Observed, Watch};
-use output::{Frame, ProbeTable, ResultDir};
+use output::checkpoint::{About, Checkpoint, Keeper};
+use output::manifest::utc;
+use output::{Frame, OutputError, ProbeTable, ResultDir, Table};
 use rayon::ThreadPool;
+use std::path::PathBuf;
+use std::time::SystemTime;
 
 /// The writer's side of the books.
 pub struct Writer<'a> {
@@ -20,6 +25,10 @@ pub struct Writer<'a> {
     watch: Box<dyn Watch>,
     deformation: Vec<[f64; 9]>,
     contact: Contact,
+    keeper: Keeper,
+    about: About,
+    /// The last checkpoint, or why it could not be written.
+    pub kept: Option<Result<PathBuf, OutputError>>,
     /// Samples of every probe.
     pub series: Vec<Series>,
     /// Measures of disorder.
@@ -38,7 +47,7 @@ impl<'a> Writer<'a> {
     pub fn create(
         case: &'a Case,
         results: &ResultDir,
-        watch: Box<dyn Watch>,
+        (watch, about): (Box<dyn Watch>, About),
         warnings: Vec<String>,
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
@@ -48,18 +57,54 @@ impl<'a> Writer<'a> {
                 ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
-        let support = 2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max);
         Ok(Self {
             case,
             frames: output::Series::create(results)?,
             tables,
             watch,
             deformation: Vec::new(),
-            contact: Contact::new(support),
+            contact: untouched(case),
+            keeper: Keeper::new(results),
+            about,
+            kept: None,
             series: vec![Series::default(); case.probes.len()],
             disorder: DisorderHistory::default(),
             energies: Vec::new(),
             warnings,
+        })
+    }
+
+    /// Goes on with the files of a run that was interrupted from where they were at a checkpoint: what came later is dropped.
+    ///
+    /// # Errors
+    /// If they are not what they were, or cannot be written.
+    pub fn reopen(
+        case: &'a Case,
+        results: &ResultDir,
+        (watch, about): (Box<dyn Watch>, About),
+        (books, notes): (Books, Notes),
+    ) -> Result<Self, RunError> {
+        let frames = output::Series::reopen(results, books.frames)?;
+        let (mut tables, mut series) = (Vec::new(), Vec::new());
+        for (probe, mark) in case.probes.iter().zip(&notes.tables) {
+            let (table, rows) = ProbeTable::reopen(results, &probe.name, mark)?;
+            tables.push(table);
+            series.push(samples(rows));
+        }
+        Ok(Self {
+            case,
+            frames,
+            tables,
+            watch,
+            deformation: Vec::new(),
+            contact: books.contact,
+            keeper: Keeper::new(results),
+            about,
+            kept: None,
+            series,
+            disorder: books.disorder,
+            energies: books.energies,
+            warnings: notes.warnings,
         })
     }
 
@@ -80,21 +125,43 @@ impl<'a> Writer<'a> {
         watcher: &Watcher<'_>,
         threads: Option<&ThreadPool>,
     ) -> Result<Self, RunError> {
-        while let Some(sheet) = inbox.next() {
+        while let Some(mut sheet) = inbox.next() {
             self.tabulate(&sheet)?;
             let frame = match threads {
                 Some(threads) => threads.install(|| self.digest(&sheet, watcher))?,
                 None => self.digest(&sheet, watcher)?,
             };
+            let saving = sheet.saving.take();
             inbox.back(sheet);
             if let Some((frame, bytes)) = frame {
                 self.frames.store(&frame, &bytes)?;
                 self.flush()?;
                 watcher.with(|observer| observer.framed(frame));
             }
+            if let Some(saving) = saving {
+                self.save(saving, watcher)?;
+            }
         }
         self.flush()?;
         Ok(self)
+    }
+
+    /// Adds the books to the run's part of a checkpoint, and writes it. If it cannot be written the one before it is still there: a
+    /// run does not end for that.
+    fn save(&mut self, saving: Saving, watcher: &Watcher<'_>) -> Result<(), RunError> {
+        let Saving { mut draft, step, time, wall } = saving;
+        let tables = self.tables.iter_mut().map(ProbeTable::mark).collect::<Result<Vec<_>, _>>()?;
+        let notes = Notes { tables, warnings: self.warnings.clone() }.in_words();
+        Books::add(&mut draft, self.frames.times(), &self.energies, (&self.disorder, &self.contact));
+        let written = utc(SystemTime::now());
+        let about = About { step, time, wall_seconds: wall, written, ..self.about.clone() };
+        let kept = self.keeper.keep(&draft, &about, &notes);
+        if let Err(error) = &kept {
+            let warning = format!("no checkpoint at step {step}: {error}; {}", error.hint());
+            watcher.with(|observer| observer.warned(&warning));
+        }
+        self.kept = Some(kept);
+        Ok(())
     }
 
     fn flush(&mut self) -> Result<(), RunError> {
@@ -146,4 +213,18 @@ impl<'a> Writer<'a> {
         self.disorder.push(time, disorder);
         Ok(())
     }
+}
+
+/// Bodies that have not touched.
+pub fn untouched(case: &Case) -> Contact {
+    Contact::new(2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max))
+}
+
+/// The samples in a table.
+fn samples(table: Table) -> Series {
+    let mut values: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; table.times.len()]);
+    for (to, column) in values.iter_mut().zip(table.columns) {
+        *to = column.values;
+    }
+    Series { times: table.times, values }
 }

@@ -10,7 +10,7 @@ use crate::Failure;
 use crate::arguments::{CaseOptions, ValidateOptions};
 use crate::builtin;
 use accept::{Accept, Run};
-use case::run::{RunError, Settings, Silent, run as run_case};
+use case::run::{Checkpoints, RunError, Settings, Silent, run as run_case};
 use evidence::Evidence;
 use output::manifest::hash;
 use output::summary::Status;
@@ -92,6 +92,7 @@ fn perform(case: &str, run: &Run, out: &Path, how: &ValidateOptions) -> Result<E
         out: out.to_path_buf(),
         threads: how.threads.map(usize::from),
         numbers: how.precision.into(),
+        checkpoints: Checkpoints::default(),
     };
     let unreadable = |error: OutputError| Failure::Run(format!("{error}\nhint: {}", error.hint()));
     let summary = match run_case(&case, &settings, &mut Silent) {

@@ -5,6 +5,7 @@ mod cases;
 mod command_line;
 mod divergence;
 mod results;
+mod resume;
 mod wrong_input;
 
 use std::path::Path;

@@ -67,12 +67,18 @@ fn functions_are_measured() {
 /// Everything that people wrote.
 fn everything() -> Vec<PathBuf> {
     let mut all = files("crates", &["rs", "toml", "py", "txt"]);
-    for folder in ["cases", "benches", "validation", "docs", "book", ".ci"] {
-        all.extend(files(folder, &["rs", "toml", "py", "md", "csv", ""]));
+    for folder in ["cases", "benches", "validation", "docs", "book", "reliability", ".ci"] {
+        all.extend(files(folder, &["rs", "toml", "py", "sh", "md", "csv", ""]));
     }
-    for page in
-        ["README.md", "ARCHITECTURE.md", "CONVENTIONS.md", "CHANGELOG.md", "CITATION.cff", "Cargo.toml"]
-    {
+    for page in [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CONVENTIONS.md",
+        "CHANGELOG.md",
+        "RELIABILITY.md",
+        "CITATION.cff",
+        "Cargo.toml",
+    ] {
         all.push(crate::root().join(page));
     }
     all

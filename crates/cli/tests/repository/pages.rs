@@ -69,7 +69,14 @@ fn architecture_names_every_crate_and_every_module_of_the_numerics() {
 
 #[test]
 fn links_between_pages_lead_somewhere() {
-    for name in ["README.md", "ARCHITECTURE.md", "CONVENTIONS.md", "CHANGELOG.md", "docs/performance.md"] {
+    for name in [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CONVENTIONS.md",
+        "CHANGELOG.md",
+        "RELIABILITY.md",
+        "docs/performance.md",
+    ] {
         let page = text(name);
         let folder = root().join(name).parent().expect("a folder").to_path_buf();
         for target in page.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {

@@ -69,6 +69,16 @@ impl Limits {
         Self { finite: limits.finite && thin > 0.1 && dense < 10.0, ..limits }
     }
 
+    /// As numbers, to be kept; `finite` they are.
+    pub(crate) fn saved(&self) -> [f64; 3] {
+        [self.speed, self.acceleration, self.wave_speed]
+    }
+
+    /// From numbers that were kept.
+    pub(crate) fn restored([speed, acceleration, wave_speed]: [f64; 3]) -> Self {
+        Self { speed, acceleration, wave_speed, finite: true }
+    }
+
     fn new(v: f64, a: f64, c: f64, sum: f64) -> Self {
         Self {
             speed: v.max(0.0).sqrt(),

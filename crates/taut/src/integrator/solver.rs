@@ -3,6 +3,7 @@
 use super::Diverged;
 use crate::field::Quantity;
 use crate::formulation::State;
+use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
 
 /// What there is to see of one particle, at the present time.
@@ -69,6 +70,16 @@ pub trait Solver: Send {
     /// # Errors
     /// If the state has left its bounds.
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
+
+    /// Everything that has to be kept so that the solver can go on bit by bit, between two steps: columns, and what is integrated
+    /// beside them. What [`Solver::restore`] makes again identically is left out.
+    fn save(&self) -> Vec<Part<'_>>;
+    /// Puts back what [`Solver::save`] gave, into a solver that was made in the same way and not started; lists are those of the
+    /// saved solver.
+    ///
+    /// # Errors
+    /// If a part is not there or does not fit, or belongs to other particles.
+    fn restore(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError>;
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];

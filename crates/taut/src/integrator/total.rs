@@ -5,8 +5,9 @@ use super::limits::{Cause, Diverged, Limits, culprit};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
+use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
-use crate::run::{Among, Relist, Run};
+use crate::run::{self, Among, Relist, Run};
 
 /// Which wave speed the time step uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -90,6 +91,21 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         }
     }
 
+    /// Lists the neighbours in the reference configuration.
+    fn list(&mut self) -> Result<(), Diverged> {
+        let relist = Relist {
+            positions: Quantity::ReferencePosition,
+            kernel: self.options.kernel,
+            among: Among::SameBody,
+        };
+        if self.run.relist(&relist).is_ok() {
+            return Ok(());
+        }
+        let wrong = |_: usize, x: f64| !x.is_finite();
+        let found = culprit(&self.run, &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
+        Err(found.unwrap_or_else(Diverged::unlisted))
+    }
+
     fn determinant(&self, id: u32) -> f64 {
         let p = self.run.particles();
         let place = p.ids().iter().position(|&i| i == id).unwrap_or(0);
@@ -122,16 +138,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn start(&mut self) -> Result<(), Diverged> {
-        let relist = Relist {
-            positions: Quantity::ReferencePosition,
-            kernel: self.options.kernel,
-            among: Among::SameBody,
-        };
-        if self.run.relist(&relist).is_err() {
-            let wrong = |_: usize, x: f64| !x.is_finite();
-            let found = culprit(&self.run, &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
-            return Err(found.unwrap_or_else(Diverged::unlisted));
-        }
+        self.list()?;
         for i in 0..D {
             self.run.particles_mut().column_mut(Quantity::DeformationGradient, i * D + i).fill(1.0);
         }
@@ -162,6 +169,26 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged> {
         self.formulation.rates(&mut self.run, Now { t: now.t, dt: 0.5 * (now.dt + next) });
         self.ahead = 0.5 * next;
+        Ok(())
+    }
+
+    fn save(&self) -> Vec<Part<'_>> {
+        let [speed, acceleration, wave_speed] = self.limits.saved();
+        let mut parts = run::save(&self.run);
+        parts.push(Part::numbers("integrator", &[self.ahead, speed, acceleration, wave_speed]));
+        parts
+    }
+
+    fn restore(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
+        // The list is that of the reference configuration, with the volumes of the set-up.
+        self.list().map_err(|_| RestoreError::Foreign("their neighbours cannot be listed"))?;
+        let ids = self.run.particles().ids().to_vec();
+        run::restore(&mut self.run, shelf)?;
+        if ids != self.run.particles().ids() {
+            return Err(RestoreError::Foreign("they were stored in another order"));
+        }
+        let [ahead, limits @ ..] = shelf.numbers::<4>("integrator")?;
+        (self.ahead, self.limits) = (ahead, Limits::restored(limits));
         Ok(())
     }
 

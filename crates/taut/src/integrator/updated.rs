@@ -7,8 +7,10 @@ use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::neighbours::storage_order;
+use crate::particles::saved::{Part, RestoreError, Shelf, Values};
 use crate::pass::Now;
-use crate::run::{Among, Relist, Run};
+use crate::run::{self, Among, Relist, Run};
+use rayon::prelude::*;
 
 /// When the configuration (neighbours, kernel, volumes) is made anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,11 +52,15 @@ pub struct Updated<const D: usize, F, R> {
     left: f64,
     rebuilds: u64,
     order: Vec<u32>,
+    /// Positions at the last list, from which it can be made again, m.
+    listed: [Vec<f64>; D],
 }
 
 /// After so many lists particles are put in order again. An elastic body keeps its order; bodies that slide along each other lose it
 /// slowly, and a sort costs as much as two lists.
 const LISTS_PER_SORT: u64 = 100;
+/// Numbers that a thread copies at a time.
+const COPIED: usize = 1 << 14;
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
     /// Bodies whose particles carry the fields of `F` and are set up.
@@ -67,6 +73,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             left: 0.0,
             rebuilds: 0,
             order: Vec::new(),
+            listed: std::array::from_fn(|_| Vec::new()),
         }
     }
 
@@ -94,17 +101,40 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         }
     }
 
+    fn relist(&self) -> Relist {
+        Relist { positions: Quantity::Position, kernel: self.options.kernel, among: Among::All }
+    }
+
+    /// Notes the positions that the list was made at.
+    fn remember(&mut self) {
+        let x = self.run.particles().vector(Quantity::Position);
+        for (listed, x) in self.listed.iter_mut().zip(x) {
+            listed.resize(x.len(), 0.0);
+            let copy = |(to, from): (&mut [f64], &[f64])| to.copy_from_slice(from);
+            listed.par_chunks_mut(COPIED).zip(x.par_chunks(COPIED)).for_each(copy);
+        }
+    }
+
+    /// Makes the list again as it was at the positions in `listed`.
+    fn list_again(&mut self) -> Result<(), RestoreError> {
+        let now = self.run.particles().vector(Quantity::Position).map(<[f64]>::to_vec);
+        place(&mut self.run, &self.listed);
+        let listed = self.run.relist(&self.relist());
+        place(&mut self.run, &now);
+        listed.map_err(|_| RestoreError::Foreign("their neighbours cannot be listed"))
+    }
+
     fn rebuild(&mut self) -> Result<(), Diverged> {
         if self.rebuilds % LISTS_PER_SORT == LISTS_PER_SORT - 1 {
             self.sort();
         }
         refresh_volumes(&mut self.run);
-        let o = &self.options;
-        let relist = Relist { positions: Quantity::Position, kernel: o.kernel, among: Among::All };
-        if self.run.relist(&relist).is_err() {
+        if self.run.relist(&self.relist()).is_err() {
             self.diagnose()?;
             return Err(Diverged::unlisted());
         }
+        self.remember();
+        let o = &self.options;
         self.formulation.relisted(&mut self.run);
         self.left = match o.stepping {
             Stepping::Single => 0.0,
@@ -140,6 +170,14 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             ],
         );
         found.map_or(Ok(()), Err)
+    }
+}
+
+/// Puts the particles at `x` (m), and touches nothing else.
+fn place<const D: usize>(run: &mut impl Run<D>, x: &[Vec<f64>; D]) {
+    for (axis, x) in x.iter().enumerate() {
+        // Positions are kept in double precision by every back-end.
+        run.put_back(Quantity::Position, axis, &Values::Double(x.as_slice().into()));
     }
 }
 
@@ -192,6 +230,28 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
     }
 
     fn finish(&mut self, _: Now<f64>, _: f64) -> Result<(), Diverged> {
+        Ok(())
+    }
+
+    fn save(&self) -> Vec<Part<'_>> {
+        let [speed, acceleration, wave_speed] = self.limits.saved();
+        let mut parts = run::save(&self.run);
+        let listed = self.listed.iter().enumerate();
+        parts.extend(listed.map(|(axis, x)| Part::column(format!("ListedPosition-{axis}"), x)));
+        let numbers = [self.left, self.rebuilds as f64, speed, acceleration, wave_speed];
+        parts.push(Part::numbers("integrator", &numbers));
+        parts
+    }
+
+    fn restore(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
+        run::restore(&mut self.run, shelf)?;
+        let len = self.run.particles().len();
+        for axis in 0..D {
+            self.listed[axis] = shelf.doubles(&format!("ListedPosition-{axis}"), len)?.into_owned();
+        }
+        self.list_again()?;
+        let [left, rebuilds, limits @ ..] = shelf.numbers::<5>("integrator")?;
+        (self.left, self.rebuilds, self.limits) = (left, rebuilds as u64, Limits::restored(limits));
         Ok(())
     }
 

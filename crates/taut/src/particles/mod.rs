@@ -1,5 +1,7 @@
 //! Particles as columns: one array for every number of every field, in an order in which neighbours are near each other.
 
+pub mod saved;
+
 use crate::field::{Quantity, Record};
 use crate::math::Vector;
 
@@ -168,6 +170,18 @@ impl<const D: usize> Particles<D> {
         unsafe { self.data.as_mut_ptr().add(first) }
     }
 
+    /// Puts the particles in the order of these ids, which must be a permutation of theirs.
+    pub fn arrange(&mut self, ids: &[u32]) {
+        let order: Vec<u32> = ids.iter().map(|&id| self.stored[id as usize]).collect();
+        self.reorder(&order);
+    }
+
+    /// The columns of all fields that are there, as field and word, in the order of the glossary.
+    pub fn words(&self) -> impl Iterator<Item = (Quantity, usize)> + '_ {
+        let fields = Quantity::ALL.iter().copied().filter(|&field| self.has(field));
+        fields.flat_map(|field| (0..field.rank().words(D)).map(move |word| (field, word)))
+    }
+
     /// Puts the particles in a new order: place `i` then holds what stood at `order[i]`.
     pub fn reorder(&mut self, order: &[u32]) {
         debug_assert_eq!(order.len(), self.len);
@@ -203,8 +217,9 @@ mod tests {
         assert_eq!(p.ids(), [2, 0, 3, 1]);
         assert_eq!([0, 1, 2, 3].map(|id| p.stored(id)), [1, 3, 0, 2]);
         assert_eq!(p.column(Quantity::Velocity, 1), [-2.0, 0.0, -3.0, -1.0]);
-        p.reorder(&[1, 3, 0, 2]);
+        p.arrange(&[0, 1, 2, 3]);
         assert_eq!(p.ids(), [0, 1, 2, 3]);
+        assert_eq!(p.column(Quantity::Velocity, 0), [0.0, 1.0, 2.0, 3.0]);
     }
 
     #[test]

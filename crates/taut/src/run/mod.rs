@@ -10,6 +10,7 @@ use crate::field::Quantity;
 use crate::kernel::Kernel;
 use crate::neighbours::SearchError;
 use crate::particles::Particles;
+use crate::particles::saved::{Part, RestoreError, Shelf, Values};
 use crate::pass::{Now, PairSum, Reduce, Update};
 
 /// Most numbers that one record may have.
@@ -53,6 +54,18 @@ pub trait Run<const D: usize>: Send {
         self.particles_mut().column_mut(field, word)[place] = value;
     }
 
+    /// One column, in the precision in which it is right.
+    fn saved(&self, field: Quantity, word: usize) -> Values<'_> {
+        Values::Double(self.particles().column(field, word).into())
+    }
+
+    /// Puts a column back as [`Run::saved`] gave it; `false` if it is not of the kind that this back-end keeps.
+    fn put_back(&mut self, field: Quantity, word: usize, values: &Values<'_>) -> bool {
+        let Values::Double(values) = values else { return false };
+        self.particles_mut().column_mut(field, word).copy_from_slice(values);
+        true
+    }
+
     /// Finds the neighbours anew and evaluates the kernel of every pair, with the present `Volume` of b.
     ///
     /// # Errors
@@ -70,4 +83,46 @@ pub trait Run<const D: usize>: Send {
 
     /// `K` numbers of all particles.
     fn reduce<R: Reduce<D, K>, const K: usize>(&mut self, reduce: &R) -> [f64; K];
+}
+
+/// Name of a column among the parts of a state.
+fn part_name(field: Quantity, word: usize) -> String {
+    format!("{}-{word}", field.name())
+}
+
+/// Ids and columns of a run, as parts of a state.
+pub fn save<const D: usize>(run: &impl Run<D>) -> Vec<Part<'_>> {
+    let ids = Values::Whole(run.particles().ids().into());
+    let column = |(field, word)| Part { name: part_name(field, word), values: run.saved(field, word) };
+    let columns = run.particles().words().map(column);
+    std::iter::once(Part { name: "ids".to_string(), values: ids }).chain(columns).collect()
+}
+
+/// Puts ids and columns back: of the same particles, in the order that they had. Lists stay as they are.
+///
+/// # Errors
+/// If a part is not there or does not fit, or the particles are others.
+pub fn restore<const D: usize>(run: &mut impl Run<D>, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
+    let len = run.particles().len();
+    let ids = shelf.permutation("ids", len)?;
+    if *ids != *run.particles().ids() {
+        run.particles_mut().arrange(&ids);
+    }
+    let words: Vec<(Quantity, usize)> = run.particles().words().collect();
+    for (field, word) in words {
+        let name = part_name(field, word);
+        let values = shelf.take(&name, len)?;
+        if field == Quantity::ReferencePosition && !same(&values, run.particles().column(field, word)) {
+            return Err(RestoreError::Foreign("they were born at other places"));
+        }
+        if !run.put_back(field, word, &values) {
+            return Err(shelf.unfit(&name, "kept in another precision"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a column is the same, bit by bit.
+fn same(values: &Values<'_>, column: &[f64]) -> bool {
+    matches!(values, Values::Double(x) if x.iter().zip(column).all(|(x, y)| x.to_bits() == y.to_bits()))
 }

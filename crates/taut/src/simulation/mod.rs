@@ -2,6 +2,7 @@
 
 mod body;
 mod particles;
+mod saved;
 mod snapshot;
 
 pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies};
@@ -11,12 +12,26 @@ pub use snapshot::{Snapshot, Totals};
 pub use crate::integrator::{Seen, Solver};
 
 use crate::integrator::Diverged;
+use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
 
 /// Something outside that acts on the bodies before every step: prescribed motion, body force in time.
 pub trait Drive: Send {
     /// Sets fields for the step that begins at `now.t` and lasts `now.dt`.
     fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>);
+
+    /// What it remembers from step to step; nothing, if it is a function of time.
+    fn save(&self) -> Vec<Part<'_>> {
+        Vec::new()
+    }
+
+    /// Puts back what [`Drive::save`] gave.
+    ///
+    /// # Errors
+    /// If a part is not there or does not fit.
+    fn restore(&mut self, _: &mut Shelf<'_>) -> Result<(), RestoreError> {
+        Ok(())
+    }
 }
 
 /// Bodies, what drives them, and the clock.

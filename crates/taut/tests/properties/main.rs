@@ -13,6 +13,7 @@ mod patch;
 mod plane;
 mod rest;
 mod rigid;
+mod saved;
 mod storage;
 mod threads;
 mod time_step;

@@ -19,6 +19,7 @@ use super::{Among, Relist, Run};
 use crate::field::{Quantity, Record};
 use crate::neighbours::{CellGrid, Lattice, SearchError};
 use crate::particles::Particles;
+use crate::particles::saved::Values;
 use crate::pass::{Now, PairSum, Reduce, Update};
 use homes::Homes;
 use lines::Lines;
@@ -215,6 +216,15 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     fn set_word(&mut self, field: Quantity, word: usize, (place, value): (usize, f64)) {
         self.homes.changed(field);
         self.store.set_word(field, word, (place, value));
+    }
+
+    fn saved(&self, field: Quantity, word: usize) -> Values<'_> {
+        self.store.saved(field, word)
+    }
+
+    fn put_back(&mut self, field: Quantity, word: usize, values: &Values<'_>) -> bool {
+        self.homes.forget();
+        self.store.put_back(field, word, values)
     }
 
     fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {

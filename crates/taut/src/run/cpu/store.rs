@@ -4,6 +4,7 @@ use super::kit::Precision;
 use super::places::{Column, PairPlaces, Places};
 use crate::field::{Quantity, Record};
 use crate::math::Element;
+use crate::particles::saved::Values;
 use crate::particles::{GUARD, Particles, stride};
 use std::any::TypeId;
 use std::marker::PhantomData;
@@ -164,5 +165,37 @@ impl<const D: usize, P: Precision> Store<D, P> {
             let at = self.at(column) + place;
             self.single[at] = value as f32;
         }
+    }
+
+    /// A column in the precision in which it is right.
+    pub fn saved(&self, field: Quantity, word: usize) -> Values<'_> {
+        let column = self.particles.place(field) + word;
+        if self.is_single(field, column) {
+            let first = self.at(column);
+            Values::Single(self.single[first..first + self.particles.len()].into())
+        } else {
+            Values::Double(self.particles.nth(column).into())
+        }
+    }
+
+    /// Puts a column back as [`Store::saved`] gave it: what was single is single again. `false` if it cannot have come from here.
+    pub fn put_back(&mut self, field: Quantity, word: usize, values: &Values<'_>) -> bool {
+        let column = self.particles.place(field) + word;
+        if let Some(used) = self.used.get_mut(column) {
+            *used = false;
+        }
+        let to = self.particles.nth_mut(column);
+        match values {
+            Values::Double(values) => to.copy_from_slice(values),
+            Values::Single(values) if P::MIXED && !field.is_state() => {
+                for (to, &from) in to.iter_mut().zip(values.iter()) {
+                    *to = f64::from(from);
+                }
+                self.room();
+                self.single_column(column);
+            }
+            _ => return false,
+        }
+        true
     }
 }
