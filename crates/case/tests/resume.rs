@@ -135,7 +135,9 @@ fn left(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     }
     let text = fs::read(out.join("summary.json")).expect("a summary");
     let mut summary: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
-    for clock in ["wall_seconds", "particle_steps_per_second", "threads"] {
+    let clocks =
+        ["wall_seconds", "particle_steps_per_second", "threads", "checkpoints", "checkpoint_seconds"];
+    for clock in clocks {
         summary.as_object_mut().expect("an object").remove(clock);
     }
     files.insert("summary.json".into(), summary.to_string().into_bytes());
@@ -304,4 +306,44 @@ fn a_directory_in_which_a_run_writes_is_left_alone() {
     on(20, &earlier).expect_err("stopped");
     let names: Vec<_> = kept(&out).iter().map(|p| p.file_name().expect("a name").to_owned()).collect();
     assert_eq!(names, ["step-000000020.taut", "step-000000013.taut"]);
+}
+
+/// A checkpoint whose contents were changed and whose checksum was made right again: refused, or run, or diverged, but never a panic.
+fn forged(whole: &[u8], out: &Path, changes: &[(usize, u8)]) {
+    let mut bytes = whole[..whole.len() - 16].to_vec();
+    for &(place, byte) in changes {
+        let place = place % bytes.len();
+        bytes[place] = byte;
+    }
+    let sum = xxhash_rust::xxh3::xxh3_128(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    fs::write(&kept(out)[0], bytes).expect("forged");
+    let Ok(run) = Interrupted::find(&kept(out)[0]) else { return };
+    let checkpoints = Checkpoints::default();
+    let mut observer = After(20, checkpoints.stop.clone());
+    let _ = case::run::resume(run, Some(1), &checkpoints, &mut observer);
+}
+
+#[test]
+fn forged_contents_do_no_harm() {
+    for (formulation, seed) in [("tl-hourglass-free", 1_u64), ("ul-non-hourglass", 2)] {
+        let scratch = tempfile::tempdir().expect("a folder");
+        let small = text(formulation, 2, BLOCK).replace("\"1 mm\"\n[material", "\"2 mm\"\n[material");
+        let small = small.replace("\"1 mm\", 1", "\"2 mm\", 1").replace("\"9 mm\", -1", "\"8 mm\", -1");
+        until(13, &case(&small), &scratch.path().join("run"), Numbers::Double);
+        let whole = fs::read(&kept(&scratch.path().join("run"))[0]).expect("a checkpoint");
+        // A linear congruence: the same changes every time.
+        let mut state = seed;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize
+        };
+        for _ in 0..60 {
+            let out = scratch.path().join("run");
+            let changes: Vec<(usize, u8)> = (0..1 + next() % 4).map(|_| (next(), next() as u8)).collect();
+            forged(&whole, &out, &changes);
+            fs::remove_dir_all(&out).expect("removed");
+            until(13, &case(&small), &out, Numbers::Double);
+        }
+    }
 }

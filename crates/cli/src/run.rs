@@ -77,7 +77,7 @@ fn way_on(out: &Path) -> String {
     }
 }
 
-fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {
+fn tell(case: &Case, summary: &Summary, out: &Path) {
     say!(
         "{}: {} particles, {} steps to t = {:.6} s in {:.1} s ({:.2} million particle-steps/s)",
         case.name,

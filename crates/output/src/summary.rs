@@ -208,6 +208,12 @@ pub struct Summary {
     /// Particles times steps over the wall time, 1/s.
     #[serde(deserialize_with = "nullable::number")]
     pub particle_steps_per_second: f64,
+    /// Checkpoints made since the run began or went on.
+    #[serde(default)]
+    pub checkpoints: u64,
+    /// Part of the wall time that they held up the run, s.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub checkpoint_seconds: f64,
     /// Threads used.
     pub threads: u32,
     /// `double` or `single`: what sums over neighbours were computed with.

@@ -1,5 +1,6 @@
 //! Closing the books: `summary.json`.
 
+use super::checkpoint::Schedule;
 use super::error::RunError;
 use super::measures::Evidence;
 use super::writer::Writer;
@@ -24,6 +25,8 @@ pub struct Books<'a> {
     pub writer: Writer<'a>,
     /// Energies and momenta at the start; `None` for a run that never started.
     pub start: Option<Totals>,
+    /// Its checkpoints.
+    pub schedule: Schedule,
     /// Wall time, s.
     pub wall: f64,
 }
@@ -101,6 +104,8 @@ impl Books<'_> {
             steps,
             end_time: simulation.time(),
             wall_seconds: self.wall,
+            checkpoints: self.schedule.made,
+            checkpoint_seconds: self.schedule.took.as_secs_f64(),
             particle_steps_per_second: n * steps as f64 / self.wall.max(1e-9),
             energy: energy(&start, &end, writer.energies.clone()),
             momentum: Momentum {

@@ -155,7 +155,9 @@ fn in_pool(
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
-        let march = March { case, simulation: &mut simulation, watcher, clock, checkpoints };
+        let schedule = Schedule::new(checkpoints.every);
+        let stop = &checkpoints.stop;
+        let march = March { case, simulation: &mut simulation, watcher, clock, stop, schedule };
         let recorder = Recorder::new(case, probes, outbox);
         march.finish(match remembered {
             Some(remembered) => recorder.remembering(remembered),
@@ -163,10 +165,11 @@ fn in_pool(
         })
     });
     let writer = written.transpose()?;
-    let (Some(writer), Ok((start, ended))) = (writer, marched) else {
+    let (Some(writer), Ok((start, schedule, ended))) = (writer, marched) else {
         return Err(RunError::Writer);
     };
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall: clock.wall() };
+    let wall = clock.wall();
+    let books = Books { case, results, simulation: &simulation, numbers, writer, start, schedule, wall };
     match ended {
         Ended::Done => books.done(),
         Ended::Stopped => Err(books.stopped()?),
@@ -194,7 +197,8 @@ struct March<'a> {
     simulation: &'a mut Simulation,
     watcher: &'a Watcher<'a>,
     clock: Clock,
-    checkpoints: &'a Checkpoints,
+    stop: &'a Stop,
+    schedule: Schedule,
 }
 
 /// Why the loop ended.
@@ -204,8 +208,8 @@ enum Ended {
     Diverged(Diverged),
 }
 
-/// Totals at the start, and why the loop ended.
-type Marched = Result<(Option<Totals>, Ended), WriterGone>;
+/// Totals at the start, the checkpoints, and why the loop ended.
+type Marched = Result<(Option<Totals>, Schedule, Ended), WriterGone>;
 
 impl March<'_> {
     fn finish(mut self, mut recorder: Recorder<'_>) -> Marched {
@@ -214,10 +218,10 @@ impl March<'_> {
         match ended {
             Ended::Done => recorder.end(self.simulation)?,
             // A frame or a look that was not due would be missing in the run that goes on.
-            Ended::Stopped => recorder.checkpoint(self.simulation, self.clock.wall())?,
+            Ended::Stopped => self.checkpoint(&mut recorder)?,
             Ended::Diverged(_) => recorder.abandon(self.simulation)?,
         }
-        Ok((start, ended))
+        Ok((start, self.schedule, ended))
     }
 
     fn steps(&mut self, recorder: &mut Recorder<'_>) -> Result<Ended, WriterGone> {
@@ -228,9 +232,8 @@ impl March<'_> {
             recorder.begin(self.simulation)?;
         }
         let end = self.case.time.end;
-        let mut schedule = Schedule::new(self.checkpoints.every);
         while self.simulation.time() < end {
-            if self.checkpoints.stop.is_requested() {
+            if self.stop.is_requested() {
                 return Ok(Ended::Stopped);
             }
             if let Err(diverged) = self.simulation.step() {
@@ -241,18 +244,18 @@ impl March<'_> {
             let progress =
                 Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
             self.watcher.with(|observer| observer.stepped(&progress));
-            self.keep(recorder, &mut schedule)?;
+            if self.schedule.is_due(self.clock.since.elapsed()) {
+                self.checkpoint(recorder)?;
+            }
         }
         Ok(Ended::Done)
     }
 
-    /// Writes a checkpoint if one is due.
-    fn keep(&self, recorder: &mut Recorder<'_>, schedule: &mut Schedule) -> Result<(), WriterGone> {
+    /// Writes a checkpoint now.
+    fn checkpoint(&mut self, recorder: &mut Recorder<'_>) -> Result<(), WriterGone> {
         let began = self.clock.since.elapsed();
-        if schedule.is_due(began) {
-            recorder.checkpoint(self.simulation, self.clock.wall())?;
-            schedule.made(began, self.clock.since.elapsed());
-        }
+        recorder.checkpoint(self.simulation, self.clock.wall())?;
+        self.schedule.note(began, self.clock.since.elapsed());
         Ok(())
     }
 }

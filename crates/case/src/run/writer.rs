@@ -10,7 +10,7 @@ use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
 use crate::build::{Observed, Watch};
-use output::checkpoint::{About, Checkpoint, Keeper};
+use output::checkpoint::{About, Keeper};
 use output::manifest::utc;
 use output::{Frame, OutputError, ProbeTable, ResultDir, Table};
 use rayon::ThreadPool;

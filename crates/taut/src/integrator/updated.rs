@@ -251,7 +251,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         }
         self.list_again()?;
         let [left, rebuilds, limits @ ..] = shelf.numbers::<5>("integrator")?;
-        (self.left, self.rebuilds, self.limits) = (left, rebuilds as u64, Limits::restored(limits));
+        let rebuilds = shelf.count("integrator", rebuilds)?;
+        (self.left, self.rebuilds, self.limits) = (left, rebuilds, Limits::restored(limits));
         Ok(())
     }
 

@@ -130,6 +130,16 @@ impl<'a> Shelf<'a> {
         Ok(std::array::from_fn(|i| values[i]))
     }
 
+    /// A number of a part as a count.
+    ///
+    /// # Errors
+    /// If it is none: negative, broken, or beyond what a number can count.
+    pub fn count(&self, name: &str, number: f64) -> Result<u64, RestoreError> {
+        const BEYOND: f64 = (1_u64 << 53) as f64;
+        let whole = (0.0..BEYOND).contains(&number) && number.fract() == 0.0;
+        if whole { Ok(number as u64) } else { Err(self.unfit(name, "no count")) }
+    }
+
     /// A permutation of the numbers below `len`.
     ///
     /// # Errors
@@ -178,6 +188,7 @@ mod tests {
             [0.5_f64.to_bits(), 1 << 63]
         );
         assert!(shelf.numbers::<3>("clock").is_err_and(|e| e.to_string().contains("2 numbers instead of 3")));
+        assert!(shelf.count("clock", 0.5).is_err() && shelf.count("clock", 1e300).is_err());
         shelf.enter("a");
         assert_eq!(*shelf.permutation("order", 3).expect("one"), [2, 0, 1]);
         for wrong in ["twice", "beyond"] {

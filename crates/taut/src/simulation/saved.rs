@@ -29,10 +29,10 @@ impl Simulation {
     ) -> Result<Self, RestoreError> {
         let mut simulation = Self::new(solvers, drives);
         let [time, dt, steps] = shelf.numbers("clock")?;
-        if !(dt > 0.0 && time >= 0.0 && steps >= 0.0) {
-            return Err(shelf.unfit("clock", "no time, no step or no number of steps"));
+        if !(dt > 0.0 && time >= 0.0) {
+            return Err(shelf.unfit("clock", "no time or no step"));
         }
-        (simulation.time, simulation.dt, simulation.steps) = (time, dt, steps as u64);
+        (simulation.time, simulation.dt, simulation.steps) = (time, dt, shelf.count("clock", steps)?);
         for (i, solver) in simulation.solvers.iter_mut().enumerate() {
             shelf.enter(&solver_level(i));
             solver.restore(shelf)?;
