@@ -33,6 +33,7 @@ mod series;
 mod vtp;
 
 pub mod checkpoint;
+pub mod limited;
 pub mod manifest;
 pub mod summary;
 
