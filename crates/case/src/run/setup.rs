@@ -63,7 +63,7 @@ pub fn again<'a>(
         RunError::Checkpoint { path: found.path.clone(), reason, hint }
     };
     let simulation =
-        checkpoint::resume((solvers, drives), &found.checkpoint).map_err(|error| unfit(error.to_string()))?;
+        checkpoint::resume(solvers, drives, &found.checkpoint).map_err(|error| unfit(error.to_string()))?;
     let (due, start) = checkpoint::remembered(&found.checkpoint).map_err(unfit)?;
     if due.probes() != probes.len() {
         return Err(unfit("it has another number of probes".to_string()));

@@ -36,7 +36,8 @@ pub fn draft(simulation: &Simulation) -> Draft {
 /// # Errors
 /// What does not fit.
 pub fn resume(
-    (solvers, drives): (Vec<Box<dyn Solver>>, Vec<Box<dyn Drive>>),
+    solvers: Vec<Box<dyn Solver>>,
+    drives: Vec<Box<dyn Drive>>,
     checkpoint: &Checkpoint,
 ) -> Result<Simulation, RestoreError> {
     let mut source = |name: &str, most: usize| {
