@@ -26,6 +26,7 @@
 mod directory;
 mod error;
 mod frame;
+mod listing;
 mod nullable;
 mod probe;
 mod series;
@@ -37,8 +38,9 @@ pub mod summary;
 pub use directory::{ResultDir, write_atomically};
 pub use error::OutputError;
 pub use frame::{Array, Frame, Values};
+pub use listing::{Listed, Listing};
 pub use manifest::Manifest;
 pub use probe::{Column, ProbeTable, Table};
 pub use series::Series;
 pub use summary::Summary;
-pub use vtp::encoded_size;
+pub use vtp::{FrameFile, encoded_size};
