@@ -29,6 +29,7 @@ mod frame;
 mod listing;
 mod nullable;
 mod probe;
+mod reference;
 mod series;
 mod vtp;
 
@@ -41,6 +42,7 @@ pub use frame::{Array, Frame, Values};
 pub use listing::{Listed, Listing};
 pub use manifest::Manifest;
 pub use probe::{Column, ProbeTable, Table};
+pub use reference::Reference;
 pub use series::Series;
 pub use summary::Summary;
 pub use vtp::{FrameFile, encoded_size};

@@ -6,6 +6,9 @@
 //! a particle method promises, and the files are half as large. Numbers that must be exact stand in the
 //! probe tables and in the summary. Identities are whole numbers, `Int32` or `Int64`.
 //!
+//! Frames that follow each other within a few steps are not compressed: that would cost more than a hundredth of the run. Their zlib
+//! blocks are stored as they are, so that it is one format all the same.
+//!
 //! What stays the same from frame to frame (cells, identities, bodies, spacings) is compressed once.
 //!
 //! Every particle is a vertex cell of its own, so that ParaView can pick and threshold particles. The unit
@@ -29,17 +32,23 @@ use crate::{Array, Frame, OutputError, Values};
 use blocks::compress;
 use head::{Element, Kind};
 
-/// What changes with every frame: the fastest level.
-const CHANGING: Compression = Compression::fast();
+/// Fewest steps since the frame before that make compression worth its time: it costs as much as two to four steps.
+const APART: u64 = 300;
+
+/// How to compress what changes with every frame.
+fn changing(steps: u64) -> Compression {
+    if steps < APART { Compression::none() } else { Compression::fast() }
+}
+
 /// What is compressed once for many frames.
 const LASTING: Compression = Compression::best();
 
-/// Size of the file of a frame, bytes.
+/// Size of the file of a frame that follows the one before after so many steps, bytes.
 ///
 /// # Errors
 /// If the numbers cannot be compressed.
-pub fn encoded_size(frame: &Frame) -> Result<usize, OutputError> {
-    let bytes = Encoder::default().encode(frame);
+pub fn encoded_size(frame: &Frame, steps: u64) -> Result<usize, OutputError> {
+    let bytes = Encoder::default().encode_with(frame, changing(steps));
     bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
 }
 
@@ -47,6 +56,8 @@ pub fn encoded_size(frame: &Frame) -> Result<usize, OutputError> {
 #[derive(Debug, Default)]
 pub(crate) struct Encoder {
     kept: Vec<Kept>,
+    /// Steps of the frame before.
+    last: Option<u64>,
 }
 
 /// The compressed bytes of an array that many frames share.
@@ -93,8 +104,15 @@ enum Numbers<'a> {
 }
 
 impl Encoder {
-    /// The bytes of the file; arrays are compressed in parallel.
+    /// The bytes of the file of the next frame.
     pub(crate) fn encode(&mut self, frame: &Frame) -> io::Result<Vec<u8>> {
+        let steps = self.last.map_or(u64::MAX, |last| frame.step.saturating_sub(last));
+        self.last = Some(frame.step);
+        self.encode_with(frame, changing(steps))
+    }
+
+    /// The bytes of the file; arrays are compressed in parallel.
+    fn encode_with(&mut self, frame: &Frame, level: Compression) -> io::Result<Vec<u8>> {
         let n = frame.points.len();
         let mut arrays = vec![
             Plain::new(Kind::Float64, ("Points", None, 3), Numbers::F64(frame.points.as_flattened())),
@@ -103,7 +121,7 @@ impl Encoder {
         ];
         arrays.extend(frame.arrays.iter().map(Plain::quantity));
         let compressed: io::Result<Vec<Arc<Vec<u8>>>> =
-            arrays.par_iter().map(|array| self.compressed(&array.numbers)).collect();
+            arrays.par_iter().map(|array| self.compressed(&array.numbers, level)).collect();
         let compressed = compressed?;
         let mut at = 0;
         for (array, bytes) in arrays.iter_mut().zip(&compressed) {
@@ -119,14 +137,14 @@ impl Encoder {
     }
 
     /// The compressed bytes of an array, from the frame before if they are kept.
-    fn compressed(&self, numbers: &Numbers) -> io::Result<Arc<Vec<u8>>> {
+    fn compressed(&self, numbers: &Numbers, level: Compression) -> io::Result<Arc<Vec<u8>>> {
         if let Numbers::Lasting(key) = numbers {
             if let Some(kept) = self.kept.iter().find(|kept| kept.key == *key) {
                 return Ok(Arc::clone(&kept.compressed));
             }
             return compress(&key.bytes(), LASTING).map(Arc::new);
         }
-        compress(&numbers.bytes(), CHANGING).map(Arc::new)
+        compress(&numbers.bytes(), level).map(Arc::new)
     }
 
     /// Keeps what may come again, and nothing else.
@@ -195,6 +213,16 @@ fn little<T, const N: usize>(values: &[T], bytes: impl Fn(&T) -> [u8; N]) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frames_that_come_quickly_are_stored_and_others_compressed() {
+        let frame = |step| Frame { time: 0.0, step, points: vec![[1.0; 3]; 1000], arrays: vec![] };
+        let mut encoder = Encoder::default();
+        let sizes = [0, APART - 1, 2 * APART - 1].map(|step| encoder.encode(&frame(step)).unwrap().len());
+        // 24 bytes a position; equal ones compress to next to nothing.
+        assert!(sizes[1] > sizes[0] + 20_000 && sizes[2] < sizes[0] + 1000, "{sizes:?}");
+        assert_eq!(encoded_size(&frame(0), APART - 1).unwrap(), sizes[1]);
+    }
 
     #[test]
     fn what_is_kept_from_the_frame_before_changes_no_file() {
