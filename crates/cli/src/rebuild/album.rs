@@ -41,7 +41,15 @@ impl<'a> Album<'a> {
         };
         album.ranges = vec![None; options.fields.len()];
         let mut flat = true;
-        for (name, number) in options.choice().into_iter().flat_map(|frames| frames.of(&list)) {
+        let wanted: Vec<_> =
+            options.choice().into_iter().map(|frames| (frames, frames.of(&list, about.end))).collect();
+        problems.extend(
+            wanted
+                .iter()
+                .filter(|(_, found)| found.is_empty())
+                .filter_map(|(frames, _)| frames.missing(&list)),
+        );
+        for (name, number) in wanted.into_iter().flat_map(|(_, found)| found) {
             match album.read(&list[number], None) {
                 Ok(frame) => {
                     flat &= frame.points.iter().all(|point| point[2] == 0.0);

@@ -38,23 +38,31 @@ impl FromStr for Frames {
 }
 
 impl Frames {
-    /// Names and numbers of the frames of this list; none where it has no such frame.
-    pub fn of(self, list: &[Listed]) -> Vec<(String, usize)> {
+    /// Names and numbers of the frames of this list, whose run should end at a time (s); none where it has no such frame.
+    pub fn of(self, list: &[Listed], end: f64) -> Vec<(String, usize)> {
         let Some(last) = list.len().checked_sub(1) else { return Vec::new() };
         let name = |number: usize| (format!("frame-{number:06}"), number);
         match self {
             Self::All => (0..=last).map(name).collect(),
             Self::Start => vec![("start".to_string(), 0)],
-            Self::Middle => vec![("middle".to_string(), middle(list))],
+            Self::Middle => vec![("middle".to_string(), middle(list, end))],
             Self::End => vec![("end".to_string(), last)],
             Self::Numbers(first, end) => (first..=end.min(last)).map(name).collect(),
         }
     }
 }
 
-/// The number of the frame nearest to half of the last one's time.
-fn middle(list: &[Listed]) -> usize {
-    let half = 0.5 * list.last().map_or(0.0, |frame| frame.time);
+impl Frames {
+    /// Says that there are no such frames, if they are given by number.
+    pub fn missing(self, list: &[Listed]) -> Option<String> {
+        let (Self::Numbers(first, _), Some(last)) = (self, list.len().checked_sub(1)) else { return None };
+        Some(format!("there is no frame {first}: the frames are 0 to {last}"))
+    }
+}
+
+/// The number of the frame nearest to half of the time that the run should have got to, or got to.
+fn middle(list: &[Listed], end: f64) -> usize {
+    let half = 0.5 * list.last().map_or(0.0, |frame| frame.time.min(end));
     let far = |number: &usize| (list[*number].time - half).abs();
     (0..list.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
@@ -103,7 +111,7 @@ mod tests {
             [0.0, 0.1, 0.45, 0.9].map(|time| Listed { time, path: "a.vtp".into() }).into_iter().collect();
         let numbers = |text: &str| -> Vec<usize> {
             let frames: Frames = text.parse().expect("a choice");
-            frames.of(&list).into_iter().map(|(_, number)| number).collect()
+            frames.of(&list, 1.0).into_iter().map(|(_, number)| number).collect()
         };
         for (text, expected) in [
             ("all", &[0, 1, 2, 3][..]),
@@ -115,7 +123,7 @@ mod tests {
         ] {
             assert_eq!(numbers(text), expected, "{text}");
         }
-        assert!(Frames::End.of(&[]).is_empty());
+        assert!(Frames::End.of(&[], 1.0).is_empty());
         for text in ["", "last", "-1", "1-", "1-2-3", "1.5"] {
             assert!(text.parse::<Frames>().is_err(), "{text}");
         }

@@ -66,6 +66,8 @@ pub struct About {
     pub title: String,
     /// Two or three; `None` if the manifest does not say.
     pub dimension: Option<usize>,
+    /// Time at which it should end, s; infinite if the manifest does not say.
+    pub end: f64,
 }
 
 impl About {
@@ -82,11 +84,11 @@ impl About {
             )));
         }
         match case_of(results) {
-            Ok(case) => Ok(Self { dimension: Some(case.dimension), title: case.title }),
+            Ok(case) => Ok(Self { dimension: Some(case.dimension), end: case.time.end, title: case.title }),
             Err(problem) => {
                 problems.push(problem);
                 let name = results.file_name().map_or("results".into(), |name| name.to_string_lossy());
-                Ok(Self { title: name.into_owned(), dimension: None })
+                Ok(Self { title: name.into_owned(), dimension: None, end: f64::INFINITY })
             }
         }
     }

@@ -69,7 +69,7 @@ fn wrong_wishes_are_told_apart() {
             "the frames have no `Temperature`; they have Displacement, Velocity",
         ),
         (&["--field", "Velocity.q"], "Velocity has no component `q`: x, y, z"),
-        (&["--frames", "4000"], "there is no frame to draw"),
+        (&["--frames", "4000"], "there is no frame 4000: the frames are 0 to"),
     ] {
         let told = report(folder.path(), options).with(1);
         assert!(told.stderr.contains(words), "{}", told.stderr);
