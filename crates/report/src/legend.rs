@@ -8,12 +8,11 @@ use crate::scale::{Scale, quantity};
 pub(crate) const INK: Rgb = [25, 25, 25];
 pub(crate) const GREY: Rgb = [110, 110, 110];
 
-/// The title and a smaller line below it.
-pub(crate) fn header(image: &mut Image, title: &str, below: &str) {
-    let width = image.width() - 2 * MARGIN;
-    image.text([MARGIN, MARGIN / 2 + GAP], &Font::Large.fit(title, width), Font::Large, INK);
+/// The title and a smaller line below it, `room` pixels wide at most.
+pub(crate) fn header(image: &mut Image, [title, below]: [&str; 2], room: usize) {
+    image.text([MARGIN, MARGIN / 2 + GAP], &Font::Large.fit(title, room), Font::Large, INK);
     let line = [MARGIN, MARGIN / 2 + GAP + Font::Large.height() + GAP / 2];
-    image.text(line, &Font::Small.fit(below, width), Font::Small, GREY);
+    image.text(line, &Font::Small.fit(below, room), Font::Small, GREY);
 }
 
 /// What the colours mean.
@@ -121,11 +120,13 @@ fn label(image: &mut Image, layout: &Layout, along: f64, text: &str) {
     image.text([x.saturating_sub(half).min(last), at[1] + size[1] + GAP / 2 + 1], text, font, INK);
 }
 
-/// The axes of the world, as they are seen, in the lower right corner of the particles.
-pub(crate) fn tripod(image: &mut Image, layout: &Layout, axes: &[[f64; 3]; 3]) {
-    const LENGTH: f64 = 34.0;
-    let Rect { at, size } = layout.plot;
-    let foot = [0, 1].map(|k| (at[k] + size[k]) as f64 - LENGTH - 20.0);
+/// Width of the corner that the tripod takes from the header, pixels.
+pub(crate) const TRIPOD: usize = 120;
+
+/// The axes of the world, as they are seen, in the upper right corner.
+pub(crate) fn tripod(image: &mut Image, axes: &[[f64; 3]; 3]) {
+    const LENGTH: f64 = 28.0;
+    let foot = [(image.width() - MARGIN) as f64 - 50.0, 54.0];
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let seen = [axes[0][axis] * LENGTH, -axes[1][axis] * LENGTH];
         image.line([foot, [foot[0] + seen[0], foot[1] + seen[1]]], GREY);

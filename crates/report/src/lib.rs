@@ -1,7 +1,7 @@
 //! Pictures of particles and plots of probes.
 //!
 //! [`picture`] draws one [`output::Frame`] without a window system or a graphics card; [`plot_probe`] draws
-//! a probe table as SVG. Both take whatever a run produced, also an empty or a broken one (NaN, one sample,
+//! a probe table as SVG, [`write_gif`] makes an animation. All take whatever a run produced, also an empty or a broken one (NaN, one sample,
 //! no particles), and draw what can be drawn.
 
 mod animation;

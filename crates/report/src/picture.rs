@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use crate::colours::{ColourMap, Rgb};
 use crate::field::{Shown, shown};
 use crate::image::{Font, Image};
-use crate::layout::Layout;
-use crate::legend::{self, Colours};
+use crate::layout::{Layout, MARGIN};
+use crate::legend::{self, Colours, TRIPOD};
 use crate::range::Range;
 use crate::scale::quantity;
 use crate::splat::{Canvas, Finish, SAMPLES, Splat};
@@ -58,7 +58,8 @@ pub fn picture(frame: &Frame, options: &Picture) -> Image {
     let window = options.window.unwrap_or_else(|| Window::around(frame, options.view)).usable();
     let layout = Layout::new(window.size()[0] / window.size()[1], options.size);
     let mut image = Image::white(layout.image[0], layout.image[1]);
-    legend::header(&mut image, &options.title, &format!("t = {}", quantity(frame.time, "s")));
+    let room = layout.image[0] - 2 * MARGIN - if options.view.is_some() { TRIPOD } else { 0 };
+    legend::header(&mut image, [&options.title, &format!("t = {}", quantity(frame.time, "s"))], room);
     let sheet = Sheet::new(window, options.view, &layout);
     let shown = shown(frame, &options.field);
     let values: &[f64] = shown.as_ref().map_or(&[], |shown| &shown.values);
@@ -68,7 +69,7 @@ pub fn picture(frame: &Frame, options: &Picture) -> Image {
     image.paste(layout.plot.at, &sheet.particles(frame, colour));
     legend::ruler(&mut image, &layout, sheet.per_pixel);
     if options.view.is_some() {
-        legend::tripod(&mut image, &layout, &sheet.axes);
+        legend::tripod(&mut image, &sheet.axes);
     }
     match &shown {
         Ok(Shown { name, unit, .. }) => {
