@@ -178,6 +178,9 @@ pub struct ReportOptions {
     /// space]
     #[arg(long, value_name = "FROM", value_parser = view, allow_hyphen_values = true)]
     pub view: Option<View>,
+    /// Show in light grey where the particles were at the start (in the plane)
+    #[arg(long)]
+    pub undeformed: bool,
     /// Longer side of a picture, pixels
     #[arg(long, value_name = "PIXELS", default_value = "1200", value_parser = clap::value_parser!(u16).range(400..=4000))]
     pub size: u16,

@@ -28,6 +28,9 @@ pub struct Picture {
     pub range: Option<Range>,
     /// Length of the longer side, pixels; 400 to 4000.
     pub size: usize,
+    /// Whether to show where the particles came from, in light grey behind them; in the plane view, if the frame has a
+    /// `Displacement`.
+    pub undeformed: bool,
 }
 
 impl Default for Picture {
@@ -40,6 +43,7 @@ impl Default for Picture {
             window: None,
             range: None,
             size: 1200,
+            undeformed: false,
         }
     }
 }
@@ -66,7 +70,8 @@ pub fn picture(frame: &Frame, options: &Picture) -> Image {
     let range = options.range.unwrap_or_else(|| Range::typical(values)).rounded();
     let map = ColourMap::of_range(range.ends);
     let colour = |i: usize| map.at(place(values.get(i).copied(), range.ends));
-    image.paste(layout.plot.at, &sheet.particles(frame, colour));
+    let start = if options.undeformed && options.view.is_none() { start(frame) } else { Vec::new() };
+    image.paste(layout.plot.at, &sheet.particles(frame, &start, colour));
     legend::ruler(&mut image, &layout, sheet.per_pixel);
     if options.view.is_some() {
         legend::tripod(&mut image, &sheet.axes);
@@ -84,6 +89,16 @@ pub fn picture(frame: &Frame, options: &Picture) -> Image {
     image
 }
 
+/// Positions before any displacement; none if the frame does not say.
+fn start(frame: &Frame) -> Vec<[f64; 3]> {
+    let Some(moved) = frame.array("Displacement").filter(|array| array.components == 3) else {
+        return Vec::new();
+    };
+    let moved = moved.values.to_f64();
+    let back = |(point, moved): (&[f64; 3], &[f64; 3])| std::array::from_fn(|k| point[k] - moved[k]);
+    frame.points.iter().zip(moved.as_chunks::<3>().0).map(back).collect()
+}
+
 /// A line of text in the place of the colour bar's caption.
 fn remark(image: &mut Image, layout: &Layout, text: &str) {
     let at = [layout.plot.at[0], layout.plot.at[1]];
@@ -95,6 +110,11 @@ fn place(value: Option<f64>, [low, high]: [f64; 2]) -> f64 {
     let value = value.unwrap_or(f64::NAN);
     if value.is_nan() || high > low { (value - low) / (high - low) } else { 0.5 }
 }
+
+/// The colour of particles where they were at the start.
+const PALE: Rgb = [226, 226, 226];
+/// How far behind the others these are drawn, samples.
+const BEHIND: f64 = 1e4;
 
 /// The sheet of paper that particles are drawn on: how world lengths become pixels.
 struct Sheet {
@@ -114,15 +134,15 @@ impl Sheet {
         Self { axes: view.unwrap_or(View::PLANE).axes(), finish, window, size, per_pixel }
     }
 
-    /// The particles, with the colour of particle `i` from `colour(i)`.
-    fn particles(&self, frame: &Frame, colour: impl Fn(usize) -> Rgb + Sync) -> Image {
+    /// The particles, with the colour of particle `i` from `colour(i)`, before those at the places of the start.
+    fn particles(&self, frame: &Frame, start: &[[f64; 3]], colour: impl Fn(usize) -> Rgb + Sync) -> Image {
         let scale = SAMPLES as f64 / self.per_pixel;
         let (centre, half) = (self.window.centre(), self.size.map(|side| 0.5 * (side * SAMPLES) as f64));
         let spacings = frame.array("ParticleSpacing").map(|array| array.magnitudes()).unwrap_or_default();
         let largest = self.largest_radius(frame.points.len());
         // Depths are counted from some particle, since the buffer holds 7 digits only.
         let first = frame.points.iter().map(|&p| project(&self.axes, p)[2]).find(|z| z.is_finite());
-        let splat = |(i, &point): (usize, &[f64; 3])| {
+        let at = |(i, &point): (usize, &[f64; 3])| {
             let p = project(&self.axes, point);
             let spacing = spacings.get(i).copied().filter(|s| s.is_finite() && *s > 0.0);
             Splat {
@@ -130,10 +150,14 @@ impl Sheet {
                 y: half[1] - (p[1] - centre[1]) * scale,
                 depth: (p[2] - first.unwrap_or(0.0)) * scale,
                 radius: closed(0.5 * spacing.unwrap_or(largest).min(largest) * scale),
-                colour: colour(i),
+                colour: PALE,
             }
         };
-        let splats: Vec<Splat> = frame.points.par_iter().enumerate().map(splat).collect();
+        // Behind everything, far enough for the buffer to tell and near enough for it to tell them from each other.
+        let behind = |splat: Splat| Splat { depth: splat.depth - BEHIND, ..splat };
+        let mut splats: Vec<Splat> = start.par_iter().enumerate().map(|p| behind(at(p))).collect();
+        let coloured = frame.points.par_iter().enumerate().map(|p| Splat { colour: colour(p.0), ..at(p) });
+        splats.par_extend(coloured);
         Canvas { size: self.size, finish: self.finish }.image(&splats)
     }
 
@@ -219,6 +243,16 @@ mod tests {
         assert!(shows(&constant, map.at(0.5)));
         let signed = drawn(&frame(points, vec![-2.0, 0.0, 1.0], 1.0), None);
         assert!(shows(&signed, ColourMap::signed().at(0.5)), "zero is in the middle");
+    }
+
+    #[test]
+    fn the_start_is_pale_and_behind() {
+        let mut frame = frame(vec![[0.0; 3], [3.0, 0.0, 0.0]], vec![1.0, 2.0], 1.0);
+        frame.arrays.push(Array::vector("Displacement", "m", vec![[-1.5, 0.0, 0.0], [0.0; 3]]));
+        let options = Picture { undeformed: true, size: 400, ..Picture::default() };
+        let image = picture(&frame, &options);
+        assert!(shows(&image, PALE) && shows(&image, ColourMap::amounts().at(1.0)));
+        assert!(!shows(&picture(&frame, &Picture { undeformed: false, ..options }), PALE));
     }
 
     #[test]

@@ -83,6 +83,7 @@ impl<'a> Album<'a> {
         let wanted = |name: &str| {
             let is = |field: &str| split_field(field).0 == name;
             name == "ParticleSpacing"
+                || (name == "Displacement" && self.options.undeformed)
                 || field.map_or_else(|| self.options.fields.iter().any(|field| is(field)), is)
         };
         let read = FrameFile::open(&file.path).and_then(|file| file.frame(wanted));
@@ -158,6 +159,7 @@ impl<'a> Album<'a> {
             window: self.window,
             range: own.or(range),
             size: usize::from(self.options.size),
+            undeformed: self.options.undeformed,
         };
         Ok(picture(&frame, &options))
     }
