@@ -181,9 +181,9 @@ pub struct ReportOptions {
     /// Show in light grey where the particles were at the start (in the plane)
     #[arg(long)]
     pub undeformed: bool,
-    /// Longer side of a picture, pixels
-    #[arg(long, value_name = "PIXELS", default_value = "1200", value_parser = clap::value_parser!(u16).range(400..=4000))]
-    pub size: u16,
+    /// Longer side of a picture, pixels, 400 to 4000 [default: 1200; 800 in an animation]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(400..=4000))]
+    pub size: Option<u16>,
     /// Values at the ends of the colours, in SI units [default: the middle 99 % of each frame; of all frames in an animation]
     #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,

@@ -158,7 +158,10 @@ impl<'a> Album<'a> {
             view: self.view,
             window: self.window,
             range: own.or(range),
-            size: usize::from(self.options.size),
+            size: self
+                .options
+                .size
+                .map_or(if self.options.animation.is_some() { 800 } else { 1200 }, usize::from),
             undeformed: self.options.undeformed,
         };
         Ok(picture(&frame, &options))
