@@ -4,8 +4,9 @@ use crate::check::duration;
 use case::Case;
 use case::run::{Observer, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
-use output::Frame;
+use output::{Frame, FrameFile};
 use std::io::IsTerminal;
+use std::path::PathBuf;
 
 /// Where progress goes.
 enum Shown {
@@ -87,6 +88,21 @@ impl Observer for Watcher {
                 );
             }
             Shown::Lines(_) => {}
+        }
+    }
+
+    fn went_on(&mut self, frames: &[(f64, PathBuf)]) {
+        let half = self.half;
+        let distance = |&index: &usize| (frames[index].0 - half).abs();
+        let between = 1..frames.len().saturating_sub(1);
+        let middle = between.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let last = frames.len().checked_sub(1).filter(|&last| last > 0);
+        let first = (!frames.is_empty()).then_some(0);
+        for (_, path) in [first, middle, last].into_iter().flatten().map(|index| &frames[index]) {
+            match FrameFile::open(path).and_then(|file| file.frame(|_| true)) {
+                Ok(frame) => self.kept.push(frame),
+                Err(error) => self.line(&format!("warning: {error}")),
+            }
         }
     }
 

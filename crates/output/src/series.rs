@@ -31,13 +31,13 @@ impl Series {
         Ok(Self { folder: results.folder(FOLDER)?, times: Vec::new(), encoder: vtp::Encoder::default() })
     }
 
-    /// Goes on with a series after its first frames, those at `times`: later ones are removed.
+    /// Goes on with a series after its first frames, those at `times`, the last of them after so many steps: later ones are removed.
     ///
     /// # Errors
     /// As [`Series::check`], and [`OutputError::Write`].
-    pub fn reopen(results: &ResultDir, times: Vec<f64>) -> Result<Self, OutputError> {
+    pub fn reopen(results: &ResultDir, times: Vec<f64>, last: Option<u64>) -> Result<Self, OutputError> {
         Self::check(results.path(), times.len())?;
-        let series = Self { folder: results.path().join(FOLDER), times, encoder: vtp::Encoder::default() };
+        let series = Self { folder: results.path().join(FOLDER), times, encoder: vtp::Encoder::after(last) };
         // First the list: it must not name what is no longer there.
         write_atomically(&series.folder.join(LIST), series.list().as_bytes())?;
         for index in series.times.len().. {
@@ -56,11 +56,21 @@ impl Series {
     /// # Errors
     /// [`OutputError::Read`] with the first that is missing.
     pub fn check(results: &Path, frames: usize) -> Result<(), OutputError> {
-        let mut paths = (0..frames).map(|index| results.join(FOLDER).join(file_name(index)));
+        let mut paths = (0..frames).map(|index| Self::file(results, index));
         match paths.find(|path| !path.is_file()) {
             Some(path) => Err(OutputError::read(&path, "it is missing")),
             None => Ok(()),
         }
+    }
+
+    /// The file of a frame in the directory `results`.
+    pub fn file(results: &Path, index: usize) -> PathBuf {
+        results.join(FOLDER).join(file_name(index))
+    }
+
+    /// Steps taken at the last frame.
+    pub fn last_step(&self) -> Option<u64> {
+        self.encoder.last()
     }
 
     /// Times of the frames, s.
@@ -156,13 +166,13 @@ mod tests {
         for time in [0.0, 0.1, 0.2, 0.3] {
             series.write(&frame(time)).unwrap();
         }
-        let mut series = Series::reopen(&results, vec![0.0, 0.1]).unwrap();
+        let mut series = Series::reopen(&results, vec![0.0, 0.1], Some(0)).unwrap();
         assert_eq!(fs::read_dir(scratch.path().join(FOLDER)).unwrap().count(), 3);
         series.write(&frame(0.2)).unwrap();
         assert_eq!(series.times(), [0.0, 0.1, 0.2]);
         let list = fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
         assert_eq!(list.matches("<DataSet").count(), 3);
-        let error = Series::reopen(&results, vec![0.0; 4]).unwrap_err();
+        let error = Series::reopen(&results, vec![0.0; 4], None).unwrap_err();
         assert!(error.to_string().contains("particles_000003.vtp"), "{error}");
     }
 

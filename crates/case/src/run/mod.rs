@@ -68,6 +68,8 @@ pub trait Observer: Send {
     fn warned(&mut self, _warning: &str) {}
     /// Where the run stands; called after every step.
     fn stepped(&mut self, _progress: &Progress) {}
+    /// The run goes on after these frames: time, s, and file of each.
+    fn went_on(&mut self, _frames: &[(f64, PathBuf)]) {}
     /// A frame was written.
     fn framed(&mut self, _frame: Frame) {}
 }
@@ -115,6 +117,9 @@ pub fn resume(
     for notice in &notices {
         observer.warned(notice);
     }
+    let file = |(index, &time)| (time, output::Series::file(results.path(), index));
+    let frames: Vec<(f64, PathBuf)> = found.books.frames.iter().enumerate().map(file).collect();
+    observer.went_on(&frames);
     pool.install(|| {
         let setup = again((&case, manifest), &results, found, built)?;
         in_pool((&case, &results), setup, (&pool, checkpoints), observer)

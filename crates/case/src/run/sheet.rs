@@ -42,8 +42,10 @@ pub struct Sheet {
     pub totals: Totals,
     /// Steps taken.
     pub step: u64,
-    /// Whether to measure disorder and note the energies.
+    /// Whether to note the energies, and whether bodies touch.
     pub look: bool,
+    /// Whether to measure disorder as well.
+    pub measure: bool,
     /// Whether to write a frame.
     pub frame: bool,
     /// The run's part of a checkpoint, if one is to be written.
@@ -61,7 +63,7 @@ impl Sheet {
 
     fn wipe(&mut self) {
         self.samples.clear();
-        (self.look, self.frame, self.saving) = (false, false, None);
+        (self.look, self.measure, self.frame, self.saving) = (false, false, false, None);
     }
 }
 

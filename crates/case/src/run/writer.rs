@@ -3,13 +3,13 @@
 use super::checkpoint::{Books, Notes, Saving};
 use super::contact::Contact;
 use super::error::RunError;
-use super::frames::frame;
+use super::frames::Framer;
 use super::history::DisorderHistory;
 use super::measures::Series;
 use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
-use crate::build::{Observed, Watch};
+use crate::build::Watch;
 use output::checkpoint::{About, Keeper};
 use output::manifest::utc;
 use output::{Frame, OutputError, ProbeTable, ResultDir, Table};
@@ -21,6 +21,7 @@ use std::time::SystemTime;
 pub struct Writer<'a> {
     case: &'a Case,
     frames: output::Series,
+    framer: Framer,
     tables: Vec<ProbeTable>,
     watch: Box<dyn Watch>,
     deformation: Vec<[f64; 9]>,
@@ -57,9 +58,11 @@ impl<'a> Writer<'a> {
                 ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
+        references(case, results)?;
         Ok(Self {
             case,
             frames: output::Series::create(results)?,
+            framer: Framer::new(case.spacing),
             tables,
             watch,
             deformation: Vec::new(),
@@ -84,7 +87,7 @@ impl<'a> Writer<'a> {
         (watch, about): (Box<dyn Watch>, About),
         (books, notes): (Books, Notes),
     ) -> Result<Self, RunError> {
-        let frames = output::Series::reopen(results, books.frames)?;
+        let frames = output::Series::reopen(results, books.frames, notes.framed)?;
         let (mut tables, mut series) = (Vec::new(), Vec::new());
         for (probe, mark) in case.probes.iter().zip(&notes.tables) {
             let (table, rows) = ProbeTable::reopen(results, &probe.name, mark)?;
@@ -94,6 +97,7 @@ impl<'a> Writer<'a> {
         Ok(Self {
             case,
             frames,
+            framer: Framer::new(case.spacing),
             tables,
             watch,
             deformation: Vec::new(),
@@ -151,11 +155,11 @@ impl<'a> Writer<'a> {
     fn save(&mut self, saving: Saving, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let Saving { mut draft, step, time, wall } = saving;
         let tables = self.tables.iter_mut().map(ProbeTable::mark).collect::<Result<Vec<_>, _>>()?;
-        let notes = Notes { tables, warnings: self.warnings.clone() }.in_words();
+        let notes = Notes { tables, warnings: self.warnings.clone(), framed: self.frames.last_step() };
         Books::add(&mut draft, self.frames.times(), &self.energies, (&self.disorder, &self.contact));
         let written = utc(SystemTime::now());
         let about = About { step, time, wall_seconds: wall, written, ..self.about.clone() };
-        let kept = self.keeper.keep(&draft, &about, &notes);
+        let kept = self.keeper.keep(&draft, &about, &notes.in_words());
         if let Err(error) = &kept {
             let warning = format!("no checkpoint at step {step}: {error}; {}", error.hint());
             watcher.with(|observer| observer.warned(&warning));
@@ -192,7 +196,7 @@ impl<'a> Writer<'a> {
             return Ok(None);
         }
         self.watch.deformation(&sheet.snapshot, &mut self.deformation);
-        let frame = frame(&sheet.snapshot, &self.deformation, self.case.spacing, sheet.step);
+        let frame = self.framer.frame(&sheet.snapshot, &self.deformation, sheet.step);
         let bytes = self.frames.encode(&frame)?;
         Ok(Some((frame, bytes)))
     }
@@ -200,8 +204,13 @@ impl<'a> Writer<'a> {
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let (time, totals) = (sheet.snapshot.time, &sheet.totals);
         self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
-        let Observed { disorder, gap } = self.watch.measure(&sheet.snapshot, self.contact.is_awaited())?;
-        self.contact.look(time, gap);
+        if self.contact.is_awaited() {
+            self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
+        }
+        if !sheet.measure {
+            return Ok(());
+        }
+        let disorder = self.watch.measure(&sheet.snapshot)?;
         let zigzag = disorder.zigzag_rms;
         let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
         if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
@@ -227,4 +236,18 @@ fn samples(table: Table) -> Series {
         *to = column.values;
     }
     Series { times: table.times, values }
+}
+
+/// Keeps the curves that probes are compared with beside the results, so that plots can be made again from there.
+fn references(case: &Case, results: &ResultDir) -> Result<(), RunError> {
+    let mut folder = None;
+    for probe in &case.probes {
+        let Some(text) = probe.reference.as_ref().and_then(|curves| curves.text.as_ref()) else { continue };
+        let folder = match &mut folder {
+            Some(folder) => folder,
+            none => none.insert(results.folder("reference")?),
+        };
+        output::write_atomically(&folder.join(format!("{}.csv", probe.name)), text.as_bytes())?;
+    }
+    Ok(())
 }

@@ -16,6 +16,8 @@ pub struct Notes {
     pub tables: Vec<Mark>,
     /// What was doubtful.
     pub warnings: Vec<String>,
+    /// Steps taken at the last frame.
+    pub framed: Option<u64>,
 }
 
 impl Notes {
