@@ -11,7 +11,7 @@ mod solvers;
 mod thickness;
 
 pub use afford::{available_memory, reckon};
-pub use observe::{Observed, ProbePoint, Watch};
+pub use observe::{ProbePoint, Watch};
 pub(crate) use shapes::bounds;
 
 use crate::{Case, CaseError};

@@ -81,21 +81,19 @@ fn mean<const D: usize>(mine: &[(usize, &Point<D>)], region: &Shape) -> Option<(
     Some((point, at))
 }
 
-/// What is observed of the arrangement of particles.
-pub struct Observed {
-    /// The measures of disorder.
-    pub disorder: Disorder,
-    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
-    pub gap: Option<f64>,
-}
-
 /// The measure of disorder of a case, in whatever dimension.
 pub trait Watch: Send {
-    /// Measures the positions of a snapshot, and the gap between bodies if it is wanted.
+    /// Measures the positions of a snapshot.
     ///
     /// # Errors
     /// If positions are not numbers.
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError>;
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError>;
+
+    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError>;
 
     /// The deformation gradient of every particle, row by row: its own, or one by least squares for formulations that
     /// have none (the identity where positions are not numbers).
@@ -149,13 +147,18 @@ impl<const D: usize> Watch for Arrangement<D> {
         }
     }
 
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError> {
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
         let disorder = self.reference.measure(x)?;
         self.measured = Some(snapshot.time);
-        let gap = if gap { self.gap.smallest(x)? } else { None };
-        Ok(Observed { disorder, gap })
+        Ok(disorder)
+    }
+
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError> {
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        Ok(self.gap.smallest(x)?)
     }
 }
 

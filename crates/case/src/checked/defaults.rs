@@ -47,13 +47,19 @@ pub(crate) const REFERENCE_SPEED: f64 = 0.0;
 /// Frames of a run, when no interval is given: enough for a smooth film of moderate size.
 pub(crate) const FRAMES: f64 = 50.0;
 
+/// Steps after which disorder is measured again, when no interval is given: a measurement costs as much as two or three steps.
+pub(crate) const DISORDER_STEPS: u64 = 500;
+
+/// Measurements of disorder of a run too short for that.
+pub(crate) const DISORDER_SAMPLES: f64 = 10.0;
+
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keys::{Key, Need, Words, case, probe, time};
+    use crate::keys::{Key, Need, Words, case, monitor, probe, time};
 
     /// What holds by default, as the table of keys says it.
     fn said(key: &Key) -> &'static str {
@@ -82,6 +88,9 @@ mod tests {
         assert_eq!(said(&case::REFERENCE_SPEED), REFERENCE_SPEED.to_string());
         assert_eq!(said(&time::OUTPUT), format!("end/{FRAMES}"));
         assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
+        let sparse =
+            format!("as [time] output; disorder {DISORDER_STEPS} steps or end/{DISORDER_SAMPLES} apart");
+        assert_eq!(said(&monitor::INTERVAL), sparse);
         let nested = Formulation::UlNested;
         let stepped = format!("{}; {} for ul-nested", word(stepping(updated)), word(stepping(nested)));
         assert_eq!(said(&case::STEPPING), stepped);

@@ -1,5 +1,6 @@
 //! `[[probe]]`.
 
+use super::curves::Curves;
 use super::defaults;
 use super::names::{find, part_name};
 use super::shape::ShapeSpec;
@@ -8,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::{Words, probe as keys};
 use crate::source::Place;
 use crate::units::Dimension;
-use crate::written::{Section, choice};
+use crate::written::{Section, choice, text};
 
 /// A material point whose motion is recorded.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,8 @@ pub struct Probe {
     pub quantity: Quantity,
     /// Time between two samples, s; 0 for every step.
     pub interval: f64,
+    /// What it is compared with.
+    pub reference: Option<Curves>,
     /// Where `at` or `region` stands in the case file.
     pub place: Place,
 }
@@ -81,6 +84,7 @@ pub(crate) fn read(
         section.get(keys::QUANTITY.name).map(|node| choice(node, keys::QUANTITY.name, Quantity::WORDS));
     let quantity = problems.keep(quantity.transpose());
     let interval = problems.keep(scope.get(section, &keys::INTERVAL));
+    let reference = problems.keep(reference(section));
     let (spot, place) = spot?;
     Some(Probe {
         name: name?.to_string(),
@@ -88,8 +92,15 @@ pub(crate) fn read(
         body: body?,
         quantity: quantity?.unwrap_or(Quantity::Displacement),
         interval: interval?.unwrap_or(defaults::PROBE_INTERVAL),
+        reference: reference?,
         place,
     })
+}
+
+fn reference(section: &Section<'_>) -> Result<Option<Curves>, Diagnostic> {
+    let Some(node) = section.get(keys::REFERENCE.name) else { return Ok(None) };
+    let file = text(node, keys::REFERENCE.name)?.to_string();
+    Ok(Some(Curves { file, place: node.place, text: None }))
 }
 
 fn spot(section: &Section<'_>, shapes: &mut ShapeReader<'_>) -> Result<(Spot, Place), Diagnostic> {

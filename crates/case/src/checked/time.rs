@@ -21,19 +21,24 @@ pub struct Time {
 pub struct Monitor {
     /// Zigzag (root mean square over the spacing) beyond which the run warns; `None` for never.
     pub zigzag: Option<f64>,
-    /// Time between two measurements, s.
+    /// Time between two looks at energies, contact and disorder, s.
     pub interval: f64,
+    /// Disorder is measured at a look so many steps, or so much time (s), after the last time.
+    pub apart: (u64, f64),
 }
 
 /// Both tables. (The keys `cfl` and `step` belong to the schemes.)
 pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Option<(Time, Monitor)> {
     let time = time(root, scope, problems)?;
-    let mut monitor = Monitor { zigzag: None, interval: time.output };
+    let apart = (defaults::DISORDER_STEPS, time.end / defaults::DISORDER_SAMPLES);
+    let mut monitor = Monitor { zigzag: None, interval: time.output, apart };
     let Some(node) = root.get("monitor") else { return Some((time, monitor)) };
     let section = problems.keep(Section::of(node, "[monitor]"))?;
     section.only(monitor_keys::TABLE.keys, problems);
     monitor.zigzag = problems.keep(scope.get(&section, &monitor_keys::ZIGZAG)).flatten();
-    monitor.interval = problems.keep(scope.get(&section, &monitor_keys::INTERVAL))?.unwrap_or(time.output);
+    if let Some(interval) = problems.keep(scope.get(&section, &monitor_keys::INTERVAL))? {
+        (monitor.interval, monitor.apart) = (interval, (0, 0.0));
+    }
     Some((time, monitor))
 }
 

@@ -153,10 +153,16 @@ pub(crate) mod probe {
         Need::Default("0"),
         "Time between two samples; 0 is every step.",
     );
+    pub(crate) const REFERENCE: Key = Key::new(
+        "reference",
+        Kind::Text,
+        Need::Optional,
+        "A table of curves to compare with, drawn dashed into the plot: a CSV file beside the case file, with a first line such as `time [s],y [m]`, and lines `# ...` before it that say where the curves come from.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[[probe]]",
         doc: "A material point (or a region) whose motion is recorded.",
-        keys: &[NAME, AT, REGION, BODY, QUANTITY, INTERVAL],
+        keys: &[NAME, AT, REGION, BODY, QUANTITY, INTERVAL, REFERENCE],
         example: "[[probe]]\nname = \"tip\"\nat = [\"L\", \"H/2\"]",
     };
 }

@@ -213,8 +213,8 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output"),
-        "Time between two measurements of disorder and energies.",
+        Need::Default("as [time] output; disorder 500 steps or end/10 apart"),
+        "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {
         header: "[monitor]",

@@ -19,9 +19,11 @@ pub struct Recorder<'a> {
 #[derive(Clone, Debug, Default)]
 struct Due {
     frame: f64,
-    disorder: f64,
+    look: f64,
     probes: Vec<f64>,
     framed: Option<f64>,
+    /// Time and steps at which disorder was measured last.
+    measured: Option<(f64, u64)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -53,9 +55,9 @@ impl<'a> Recorder<'a> {
                 self.outbox.sheet.samples.push(Sample { probe: i, time, value });
             }
         }
-        let (frame, look) = (time >= self.due.frame, time >= self.due.disorder);
+        let (frame, look) = (time >= self.due.frame, time >= self.due.look);
         if look {
-            self.due.disorder = later(self.due.disorder, self.case.monitor.interval, time);
+            self.due.look = later(self.due.look, self.case.monitor.interval, time);
         }
         if frame {
             self.due.frame = later(self.due.frame, self.case.time.output, time);
@@ -66,12 +68,26 @@ impl<'a> Recorder<'a> {
         self.outbox.post()
     }
 
+    /// Whether disorder is to be measured at a look: not again at once, unless the case says how often.
+    fn is_due(&self, time: f64, step: u64) -> bool {
+        let monitor = &self.case.monitor;
+        self.due
+            .measured
+            .is_none_or(|(when, at)| step >= at + monitor.apart.0 || time >= when + monitor.apart.1)
+    }
+
     fn copy(&mut self, simulation: &Simulation, look: bool, frame: bool) {
+        let (time, step) = (simulation.time(), simulation.steps());
+        let ending = time >= self.case.time.end;
+        let measure = look && (ending || self.is_due(time, step));
+        if measure {
+            self.due.measured = Some((time, step));
+        }
         let sheet = &mut self.outbox.sheet;
         sheet.totals = simulation.snapshot(&mut sheet.snapshot);
-        (sheet.step, sheet.look, sheet.frame) = (simulation.steps(), look, frame);
+        (sheet.step, sheet.look, sheet.measure, sheet.frame) = (step, look, measure, frame);
         if frame {
-            self.due.framed = Some(simulation.time());
+            self.due.framed = Some(time);
         }
     }
 

@@ -41,8 +41,10 @@ pub struct Sheet {
     pub totals: Totals,
     /// Steps taken.
     pub step: u64,
-    /// Whether to measure disorder and note the energies.
+    /// Whether to note the energies, and whether bodies touch.
     pub look: bool,
+    /// Whether to measure disorder as well.
+    pub measure: bool,
     /// Whether to write a frame.
     pub frame: bool,
 }
@@ -58,7 +60,7 @@ impl Sheet {
 
     fn wipe(&mut self) {
         self.samples.clear();
-        (self.look, self.frame) = (false, false);
+        (self.look, self.measure, self.frame) = (false, false, false);
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::contact::Contact;
 use super::error::RunError;
-use super::frames::frame;
+use super::frames::Framer;
 use super::history::DisorderHistory;
 use super::measures::Series;
 use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
-use crate::build::{Observed, Watch};
+use crate::build::Watch;
 use output::{Frame, ProbeTable, ResultDir};
 use rayon::ThreadPool;
 
@@ -16,6 +16,7 @@ use rayon::ThreadPool;
 pub struct Writer<'a> {
     case: &'a Case,
     frames: output::Series,
+    framer: Framer,
     tables: Vec<ProbeTable>,
     watch: Box<dyn Watch>,
     deformation: Vec<[f64; 9]>,
@@ -48,10 +49,12 @@ impl<'a> Writer<'a> {
                 ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
+        references(case, results)?;
         let support = 2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max);
         Ok(Self {
             case,
             frames: output::Series::create(results)?,
+            framer: Framer::new(case.spacing),
             tables,
             watch,
             deformation: Vec::new(),
@@ -125,7 +128,7 @@ impl<'a> Writer<'a> {
             return Ok(None);
         }
         self.watch.deformation(&sheet.snapshot, &mut self.deformation);
-        let frame = frame(&sheet.snapshot, &self.deformation, self.case.spacing, sheet.step);
+        let frame = self.framer.frame(&sheet.snapshot, &self.deformation, sheet.step);
         let bytes = self.frames.encode(&frame)?;
         Ok(Some((frame, bytes)))
     }
@@ -133,8 +136,13 @@ impl<'a> Writer<'a> {
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let (time, totals) = (sheet.snapshot.time, &sheet.totals);
         self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
-        let Observed { disorder, gap } = self.watch.measure(&sheet.snapshot, self.contact.is_awaited())?;
-        self.contact.look(time, gap);
+        if self.contact.is_awaited() {
+            self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
+        }
+        if !sheet.measure {
+            return Ok(());
+        }
+        let disorder = self.watch.measure(&sheet.snapshot)?;
         let zigzag = disorder.zigzag_rms;
         let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
         if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
@@ -146,4 +154,18 @@ impl<'a> Writer<'a> {
         self.disorder.push(time, disorder);
         Ok(())
     }
+}
+
+/// Keeps the curves that probes are compared with beside the results, so that plots can be made again from there.
+fn references(case: &Case, results: &ResultDir) -> Result<(), RunError> {
+    let mut folder = None;
+    for probe in &case.probes {
+        let Some(text) = probe.reference.as_ref().and_then(|curves| curves.text.as_ref()) else { continue };
+        let folder = match &mut folder {
+            Some(folder) => folder,
+            none => none.insert(results.folder("reference")?),
+        };
+        output::write_atomically(&folder.join(format!("{}.csv", probe.name)), text.as_bytes())?;
+    }
+    Ok(())
 }

@@ -4,6 +4,7 @@ use super::Diverged;
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::pass::Now;
+use std::ops::Range;
 
 /// What there is to see of one particle, at the present time.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +30,7 @@ pub struct Seen {
 }
 
 /// Bodies that one formulation advances: one virtual call for each half of a step.
-pub trait Solver: Send {
+pub trait Solver: Send + Sync {
     /// 2 or 3.
     fn dimension(&self) -> usize;
     /// How many particles.
@@ -88,11 +89,12 @@ pub trait Solver: Send {
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;
-    /// Shows every particle, place by place: one virtual call for all of them.
-    fn show(&self, to: &mut dyn FnMut(&Seen)) {
-        for (place, &id) in self.ids().iter().enumerate() {
+    /// Shows the particles of these ids, in their order: one virtual call for all of them.
+    fn show(&self, ids: Range<usize>, to: &mut dyn FnMut(&Seen)) {
+        for id in ids {
+            let place = self.stored(id);
             to(&Seen {
-                id,
+                id: id as u32,
                 body: self.scalar(Quantity::Body, place) as u32,
                 mass: self.scalar(Quantity::Mass, place),
                 reference: self.read(Quantity::ReferencePosition, place),

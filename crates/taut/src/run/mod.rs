@@ -36,7 +36,7 @@ pub enum Among {
 }
 
 /// A back-end: it owns the particles and their pair list, and runs passes over them.
-pub trait Run<const D: usize>: Send {
+pub trait Run<const D: usize>: Send + Sync {
     /// The particles. In a single run only what is integrated in time is up to date here; [`Run::word`] always is.
     fn particles(&self) -> &Particles<D>;
 

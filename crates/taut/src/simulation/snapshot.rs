@@ -1,7 +1,13 @@
 //! What a simulation looks like from outside, at one instant.
 
 use super::{Seen, Simulation};
+use crate::integrator::Solver;
 use crate::math::Tensor;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Particles that a thread looks at in one go; sums are added up in this order, whatever the threads.
+const CHUNK: usize = 512;
 
 /// All particles of a simulation in the order of their ids.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +49,54 @@ impl Snapshot {
         self.reference.iter().zip(&self.displacement).map(|(x, u)| std::array::from_fn(|i| x[i] + u[i]))
     }
 
+    /// The columns of the particles of a range, cut into chunks.
+    fn chunks(&mut self, of: Range<usize>) -> impl IndexedParallelIterator<Item = Chunk<'_>> {
+        fn cut<'a, T: Send>(column: &'a mut [T], of: &Range<usize>) -> rayon::slice::ChunksMut<'a, T> {
+            column[of.clone()].par_chunks_mut(CHUNK)
+        }
+        let moved =
+            (cut(&mut self.reference, &of), cut(&mut self.displacement, &of), cut(&mut self.velocity, &of));
+        let state =
+            (cut(&mut self.cauchy, &of), cut(&mut self.von_mises, &of), cut(&mut self.deformation, &of));
+        let (moved, state) = (moved.into_par_iter(), state.into_par_iter());
+        (cut(&mut self.body, &of), cut(&mut self.density, &of), moved, state).into_par_iter().map(
+            |(body, density, (reference, displacement, velocity), (cauchy, von_mises, deformation))| Chunk {
+                body,
+                reference,
+                displacement,
+                velocity,
+                density,
+                cauchy,
+                von_mises,
+                deformation,
+            },
+        )
+    }
+}
+
+/// The columns of a snapshot for some particles.
+struct Chunk<'a> {
+    body: &'a mut [u32],
+    reference: &'a mut [[f64; 3]],
+    displacement: &'a mut [[f64; 3]],
+    velocity: &'a mut [[f64; 3]],
+    density: &'a mut [f64],
+    cauchy: &'a mut [[f64; 9]],
+    von_mises: &'a mut [f64],
+    deformation: &'a mut [[f64; 9]],
+}
+
+impl Chunk<'_> {
+    /// Fills in the particles from the id `first` on, and adds them up.
+    fn fill(&mut self, solver: &dyn Solver, first: usize) -> Totals {
+        let mut totals = Totals::default();
+        solver.show(first..first + self.body.len(), &mut |seen| {
+            self.take(seen.id as usize - first, seen);
+            totals.add(seen);
+        });
+        totals
+    }
+
     fn take(&mut self, i: usize, seen: &Seen) {
         let flat = |t: Tensor<f64, 3>| std::array::from_fn(|k| t[k / 3][k % 3]);
         let state = &seen.state;
@@ -75,6 +129,19 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// Adds those of other particles.
+    fn and(mut self, other: &Self) -> Self {
+        self.kinetic += other.kinetic;
+        self.strain += other.strain;
+        self.dissipated += other.dissipated;
+        self.external_work += other.external_work;
+        for i in 0..3 {
+            self.momentum[i] += other.momentum[i];
+            self.angular_momentum[i] += other.angular_momentum[i];
+        }
+        self
+    }
+
     fn add(&mut self, seen: &Seen) {
         let (m, v) = (seen.mass, seen.velocity);
         let x: [f64; 3] = std::array::from_fn(|i| seen.reference[i] + seen.displacement[i]);
@@ -108,13 +175,11 @@ impl Simulation {
     pub fn snapshot(&self, snapshot: &mut Snapshot) -> Totals {
         snapshot.resize(self.len());
         snapshot.time = self.time;
-        let mut totals = Totals::default();
-        let mut first = 0;
+        let (mut totals, mut first) = (Totals::default(), 0);
         for solver in &self.solvers {
-            solver.show(&mut |seen| {
-                snapshot.take(first + seen.id as usize, seen);
-                totals.add(seen);
-            });
+            let chunks = snapshot.chunks(first..first + solver.len()).enumerate();
+            let sums: Vec<Totals> = chunks.map(|(k, mut chunk)| chunk.fill(&**solver, k * CHUNK)).collect();
+            totals = sums.iter().fold(totals, Totals::and);
             first += solver.len();
         }
         totals
@@ -125,7 +190,11 @@ impl Simulation {
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();
         for solver in &self.solvers {
-            solver.show(&mut |seen| totals.add(seen));
+            for first in (0..solver.len()).step_by(CHUNK) {
+                let mut sum = Totals::default();
+                solver.show(first..solver.len().min(first + CHUNK), &mut |seen| sum.add(seen));
+                totals = totals.and(&sum);
+            }
         }
         totals
     }
