@@ -3,7 +3,7 @@
 use crate::Failure;
 use case::Case;
 use output::{Frame, Table};
-use report::{Picture, View, Window, picture, plot_probe, write_png};
+use report::{Picture, View, Window, picture, plot_audit, plot_probe, write_png};
 use std::path::Path;
 
 /// Draws the particles at start, middle and end, and every probe.
@@ -22,9 +22,13 @@ pub fn draw(case: &Case, frames: &[Frame], results: &Path) -> Result<(), Failure
         let file = results.join(format!("{name}.png"));
         write_png(&picture(frame, &options), &file).map_err(failed)?;
     }
+    let read = |path: &Path| {
+        Table::read(path).map_err(|error| Failure::Run(format!("{error}\nhint: {}", error.hint())))
+    };
+    plot_audit(&case.title, &read(&results.join("audit.csv"))?, &results.join("audit.svg"))
+        .map_err(failed)?;
     for probe in &case.probes {
-        let table = Table::read(&results.join("probes").join(format!("{}.csv", probe.name)))
-            .map_err(|error| Failure::Run(format!("{error}\nhint: {}", error.hint())))?;
+        let table = read(&results.join("probes").join(format!("{}.csv", probe.name)))?;
         let title = format!("{}: {}", case.title, probe.name);
         plot_probe(&title, &table, &results.join(format!("{}.svg", probe.name))).map_err(failed)?;
     }

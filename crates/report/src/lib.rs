@@ -4,6 +4,7 @@
 //! a probe table as SVG. Both take whatever a run produced, also an empty or a broken one (NaN, one sample,
 //! no particles), and draw what can be drawn.
 
+mod audit;
 mod colours;
 mod error;
 mod image;
@@ -16,6 +17,7 @@ mod scale;
 mod splat;
 mod view;
 
+pub use audit::plot_audit;
 pub use error::ReportError;
 pub use image::{Image, write_png};
 pub use picture::{Picture, picture};

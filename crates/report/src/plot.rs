@@ -36,16 +36,17 @@ pub fn plot_probe(title: &str, table: &Table, path: &Path) -> Result<(), ReportE
     let mut svg = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        chart(title, table, &area).map_err(|cause| cause.to_string())
+        chart(title, table, &area).and_then(|()| Ok(area.present()?)).map_err(|cause| cause.to_string())
     };
     drawn.map_err(|cause| ReportError::Draw { what: path.display().to_string(), cause })?;
     Ok(output::write_atomically(path, svg.as_bytes())?)
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
+/// One chart of all columns of a table.
+pub(crate) fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
     let time = Axis::new("time", "s", table.times.iter().copied());
     let value = value_axis(&table.columns);
     area.fill(&WHITE)?;
@@ -89,7 +90,6 @@ fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
             .label_font(("sans-serif", 16))
             .draw()?;
     }
-    area.present()?;
     Ok(())
 }
 

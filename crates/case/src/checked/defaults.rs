@@ -50,10 +50,18 @@ pub(crate) const FRAMES: f64 = 50.0;
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
 
+/// Disorder beyond which a run warns: what no healthy run of the papers' cases shows (zigzag 0.06 in spacings, bonds of 0.3 of a
+/// spacing, no broken ones but single ones at corners), and every torn one does.
+pub(crate) const ZIGZAG: f64 = 0.06;
+/// As [`ZIGZAG`].
+pub(crate) const BOND_MIN: f64 = 0.3;
+/// As [`ZIGZAG`].
+pub(crate) const BROKEN: f64 = 0.01;
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keys::{Key, Need, Words, case, probe, time};
+    use crate::keys::{Key, Need, Words, case, monitor, probe, time};
 
     /// What holds by default, as the table of keys says it.
     fn said(key: &Key) -> &'static str {
@@ -82,6 +90,11 @@ mod tests {
         assert_eq!(said(&case::REFERENCE_SPEED), REFERENCE_SPEED.to_string());
         assert_eq!(said(&time::OUTPUT), format!("end/{FRAMES}"));
         assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
+        for (key, value) in
+            [(&monitor::ZIGZAG, ZIGZAG), (&monitor::BOND_MIN, BOND_MIN), (&monitor::BROKEN, BROKEN)]
+        {
+            assert_eq!(said(key), value.to_string());
+        }
         let nested = Formulation::UlNested;
         let stepped = format!("{}; {} for ul-nested", word(stepping(updated)), word(stepping(nested)));
         assert_eq!(said(&case::STEPPING), stepped);

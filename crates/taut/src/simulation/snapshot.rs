@@ -1,6 +1,7 @@
 //! What a simulation looks like from outside, at one instant.
 
 use super::{Seen, Simulation};
+use crate::integrator::{Impulse, cross};
 use crate::math::Tensor;
 
 /// All particles of a simulation in the order of their ids.
@@ -72,6 +73,10 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// Angular momentum about the origin, kg m^2/s.
     pub angular_momentum: [f64; 3],
+    /// What constraints and body forces gave since the start.
+    pub impulse: Impulse,
+    /// Sum of m |v|, kg m/s, and of m |x| |v|, kg m^2/s: what an error of the momenta is small or large against.
+    pub motion: [f64; 2],
 }
 
 impl Totals {
@@ -82,11 +87,14 @@ impl Totals {
         self.strain += seen.state.strain_energy;
         self.dissipated += seen.dissipated;
         self.external_work += seen.external_work;
+        let moment = cross(x, v);
         for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             self.momentum[i] += m * v[i];
-            self.angular_momentum[i] += m * (x[j] * v[k] - x[k] * v[j]);
+            self.angular_momentum[i] += m * moment[i];
         }
+        let speed = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        self.motion[0] += m * speed;
+        self.motion[1] += m * speed * x.iter().map(|c| c * c).sum::<f64>().sqrt();
     }
 }
 
@@ -108,7 +116,7 @@ impl Simulation {
     pub fn snapshot(&self, snapshot: &mut Snapshot) -> Totals {
         snapshot.resize(self.len());
         snapshot.time = self.time;
-        let mut totals = Totals::default();
+        let mut totals = Totals { impulse: self.audit.total(), ..Totals::default() };
         let mut first = 0;
         for solver in &self.solvers {
             solver.show(&mut |seen| {
@@ -123,7 +131,7 @@ impl Simulation {
     /// Energies and momenta now.
     #[must_use]
     pub fn totals(&self) -> Totals {
-        let mut totals = Totals::default();
+        let mut totals = Totals { impulse: self.audit.total(), ..Totals::default() };
         for solver in &self.solvers {
             solver.show(&mut |seen| totals.add(seen));
         }
