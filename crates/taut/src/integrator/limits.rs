@@ -95,9 +95,9 @@ impl Criterion {
     #[must_use]
     pub const fn formula(self) -> &'static str {
         match self {
-            Self::Wave => "h / (c + |v|)",
-            Self::ShearWave => "1.5 h / (c_M + |v|)",
-            Self::Acceleration => "sqrt(h / |a|)",
+            Self::Wave => "h / (c + v)",
+            Self::ShearWave => "1.5 h / (c_M + v)",
+            Self::Acceleration => "sqrt(h / a)",
         }
     }
 }

@@ -23,6 +23,8 @@ pub struct Facts {
     pub fastest: f64,
     /// The largest prescribed speed now, m/s.
     pub led: f64,
+    /// What acts on it and is no number.
+    pub senseless: Option<&'static str>,
     /// Its neighbours.
     pub neighbours: Option<i64>,
     /// Its distance to the nearest held particle, in spacings.
@@ -64,6 +66,10 @@ impl Facts {
         let (solver, place) = (culprit.solver, culprit.place);
         let length = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
         self.speed = length(solver.read(Quantity::Velocity, place));
+        let loads =
+            [(Quantity::BodyForce, "body force"), (Quantity::PrescribedVelocity, "prescribed motion")];
+        let nonsense = |field| solver.read(field, place).iter().any(|x| !x.is_finite());
+        self.senseless = loads.into_iter().find(|(field, _)| nonsense(*field)).map(|(_, name)| name);
         self.neighbours = Some(culprit.neighbours());
         self.held = culprit.held_within().map(|r| r / spacing);
         let given = (0..solver.len()).map(|p| length(solver.read(Quantity::PrescribedVelocity, p)));

@@ -22,8 +22,9 @@ const NOTICED: f64 = 0.004;
 
 /// Everything that speaks for a cause, the likeliest first.
 pub fn signs(evidence: &Evidence<'_>, facts: &Facts) -> Vec<Sign> {
-    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 11] = [
+    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 12] = [
         nothing_to_start_from,
+        senseless_load,
         impossible_speed,
         long_steps,
         stretched_beyond_the_step,
@@ -48,6 +49,16 @@ fn nothing_to_start_from(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     }
     sign(
         "The initial state itself is not made of numbers: an expression of the case divides by zero, or takes the root or logarithm of a negative number, at this place.".to_string(),
+        vec![],
+    )
+}
+
+fn senseless_load(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
+    let load = facts.senseless?;
+    sign(
+        format!(
+            "The {load} on this particle is not a number: an expression of the case divides by zero, or takes the root or logarithm of a negative number, from this time on."
+        ),
         vec![],
     )
 }

@@ -23,9 +23,11 @@ pub fn page(evidence: &Evidence<'_>, facts: &Facts, pictured: bool) -> String {
     page
 }
 
-/// Six digits, or whole if it is.
+/// Six digits.
 fn number(value: f64) -> String {
-    if value == value.trunc() && value.abs() < 1e6 { format!("{value}") } else { format!("{value:.5e}") }
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let plain = rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) || !rounded.is_finite();
+    if plain { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 fn place(x: [f64; 3], dimension: usize) -> String {
@@ -121,7 +123,7 @@ fn steps(page: &mut String, e: &Evidence<'_>) {
     let history = e.simulation.history().steps();
     let Some(first) = history.clone().next() else { return };
     page.push_str("## The time step\n\n");
-    page.push_str("What bounded the last steps. A particle is looked for when the step falls by a tenth, and every 256 steps.\n\n");
+    page.push_str("What bounded the last steps. The last one is that which failed, or would have come next. The particle at the bound is looked for when the step falls by a tenth, and every 256 steps.\n\n");
     page.push_str("| step | begins at, s | dt, s | bound | c, m/s | largest speed, m/s | largest acceleration, m/s^2 | particle |\n|---|---|---|---|---|---|---|---|\n");
     let skipped = history.len().saturating_sub(SHOWN);
     let earlier = (skipped > 0).then_some(first);
@@ -165,7 +167,8 @@ fn kept(page: &mut String, e: &Evidence<'_>, pictured: bool) {
     if let Some((frames, time)) = e.writer.last_frame() {
         let _ = writeln!(
             page,
-            "- `particles/particles.pvd`: {frames} frames; the last good one is of t = {time:.6e} s."
+            "- `particles/particles.pvd`: {frames} good frame{}; the last is of t = {time:.6e} s.",
+            if frames == 1 { "" } else { "s" }
         );
     }
     if pictured {

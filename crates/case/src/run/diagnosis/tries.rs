@@ -20,7 +20,11 @@ impl Try {
 /// A number as a user would write it.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    format!("{rounded}")
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 fn parameter(case: &Case, name: &str) -> Option<f64> {
@@ -61,10 +65,17 @@ pub fn finer(case: &Case) -> Try {
     }
 }
 
+/// Whether a name stands anywhere but where it is defined.
+fn is_used(text: &str, name: &str) -> bool {
+    let word = |c: char| c.is_alphanumeric() || c == '_';
+    text.split(|c: char| !word(c)).filter(|found| *found == name).count() > 1
+}
+
 /// Half of every speed that the case has a parameter for.
 pub fn slower(case: &Case) -> Vec<Try> {
     let speeds = case.parameters.iter().filter(|(name, value)| {
-        *value != 0.0 && ["v", "omega", "speed", "load", "rate"].iter().any(|start| name.starts_with(start))
+        let named = ["v", "omega", "speed", "load", "rate"].iter().any(|start| name.starts_with(start));
+        named && *value != 0.0 && is_used(case.case_text_as_run(), name)
     });
     let half = |(name, value): &(String, f64)| {
         Try::new(
