@@ -29,7 +29,22 @@ impl ProbeTable {
     pub fn create(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let folder = results.path().join("probes");
         std::fs::create_dir_all(&folder).map_err(|cause| OutputError::write(&folder, cause))?;
-        let path = folder.join(format!("{}.csv", checked(name)?));
+        Self::new(folder.join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    /// The same for a table `NAME.csv` that stands beside the summary.
+    ///
+    /// # Errors
+    /// As [`ProbeTable::create`].
+    pub fn beside_summary(
+        results: &ResultDir,
+        name: &str,
+        columns: &[(&str, &str)],
+    ) -> Result<Self, OutputError> {
+        Self::new(results.path().join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    fn new(path: PathBuf, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
             Ok(file) => file,
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {

@@ -15,7 +15,7 @@ pub use observe::{ProbePoint, Watch};
 pub(crate) use shapes::bounds;
 
 use crate::{Case, CaseError};
-use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Drive, Grip, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -23,6 +23,8 @@ pub struct Built {
     pub solvers: Vec<Box<dyn Solver>>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
+    /// Who is held by each boundary.
+    pub grips: Vec<Grip>,
     /// Where each probe reads.
     pub probes: Vec<ProbePoint>,
     /// The measure of disorder.
@@ -66,10 +68,11 @@ where
     let driven = drives::prescribe(case, &mut groups)?;
     let solver = |group| solvers::solver(case, group, numbers);
     let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let grips = driven.grips(case);
     let drives = driven.drives();
     let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, &groups)?;
     let across = thickness::across(case, &groups);
     let warnings = doubts::warnings(case, &groups, &across);
-    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings, across })
+    Ok(Built { solvers, drives, grips, probes, watch, body, numbers, warnings, across })
 }

@@ -56,6 +56,14 @@ pub(crate) const DISORDER_SAMPLES: f64 = 10.0;
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
 
+/// Disorder beyond which a run warns: what no healthy run of the papers' cases shows (zigzag 0.06 in spacings, bonds of 0.3 of a
+/// spacing, no broken ones but single ones at corners), and every torn one does.
+pub(crate) const ZIGZAG: f64 = 0.06;
+/// As [`ZIGZAG`].
+pub(crate) const BOND_MIN: f64 = 0.3;
+/// As [`ZIGZAG`].
+pub(crate) const BROKEN: f64 = 0.01;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,6 +99,11 @@ mod tests {
         let sparse =
             format!("as [time] output; disorder {DISORDER_STEPS} steps or end/{DISORDER_SAMPLES} apart");
         assert_eq!(said(&monitor::INTERVAL), sparse);
+        for (key, value) in
+            [(&monitor::ZIGZAG, ZIGZAG), (&monitor::BOND_MIN, BOND_MIN), (&monitor::BROKEN, BROKEN)]
+        {
+            assert_eq!(said(key), value.to_string());
+        }
         let nested = Formulation::UlNested;
         let stepped = format!("{}; {} for ul-nested", word(stepping(updated)), word(stepping(nested)));
         assert_eq!(said(&case::STEPPING), stepped);

@@ -30,6 +30,7 @@ pub use body::{Body, Fill};
 pub use case::Case;
 pub use choices::{Axis, Family, Formulation, Kernel, Plane, StepRule, Stepping};
 pub use curves::Curves;
+pub(crate) use defaults::cfl as default_cfl;
 pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
 pub use load::{Boundary, Constraint, Gravity, Initial};

@@ -1,13 +1,17 @@
 //! Running a case: the only time loop of the project.
 
+mod alarm;
+mod audit;
 mod books;
 mod contact;
 pub mod curves;
+mod diagnosis;
 mod error;
 mod frames;
 mod history;
 mod measures;
 mod memory;
+mod reactions;
 mod recorder;
 mod sheet;
 mod trial;
@@ -19,6 +23,7 @@ pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build};
+use alarm::Alarm;
 use books::Books;
 use output::manifest::Machine;
 use output::{Frame, Manifest, ResultDir, Summary};
@@ -26,7 +31,7 @@ use recorder::Recorder;
 use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::integrator::Diverged;
+use taut::integrator::{Cause, Diverged};
 use taut::run::InstructionSet;
 use taut::simulation::{Numbers, Simulation, Totals};
 use watcher::Watcher;
@@ -115,19 +120,21 @@ fn in_pool(
     let precision = built.numbers.name();
     Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
         .write(results)?;
-    let Built { solvers, drives, probes, watch, numbers, warnings, .. } = built;
+    let Built { solvers, drives, grips, probes, watch, numbers, warnings, across, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives);
+    simulation.hold(grips);
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
+    let alarm = writer.alarm.clone();
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
-        let march = March { case, simulation: &mut simulation, watcher, clock };
+        let march = March { case, simulation: &mut simulation, watcher, alarm: &alarm, clock };
         march.finish(Recorder::new(case, probes, outbox))
     });
     let writer = written.transpose()?;
@@ -135,7 +142,8 @@ fn in_pool(
         return Err(RunError::Writer);
     };
     let wall = clock.elapsed().as_secs_f64();
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall };
+    let books =
+        Books { case, results, simulation: &simulation, across: &across, numbers, writer, start, wall };
     match stopped {
         None => books.done(),
         Some(diverged) => Err(books.diverged(diverged)?),
@@ -147,6 +155,7 @@ struct March<'a> {
     case: &'a Case,
     simulation: &'a mut Simulation,
     watcher: &'a Watcher<'a>,
+    alarm: &'a Alarm,
     clock: Instant,
 }
 
@@ -158,7 +167,8 @@ impl March<'_> {
         let stopped = self.steps(&mut recorder)?;
         let start = recorder.start;
         match stopped {
-            None => recorder.end(self.simulation)?,
+            // Disorder is no wrong number: the state as it stopped is as good as any.
+            None | Some(Diverged { cause: Cause::Disordered, .. }) => recorder.end(self.simulation)?,
             Some(_) => recorder.abandon(self.simulation)?,
         }
         Ok((start, stopped))
@@ -179,6 +189,9 @@ impl March<'_> {
             let progress =
                 Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
             self.watcher.with(|observer| observer.stepped(&progress));
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Some(stopped));
+            }
         }
         Ok(None)
     }

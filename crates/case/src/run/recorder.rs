@@ -1,5 +1,6 @@
 //! What a run notes as it goes: it reads what is due off the simulation; the writer does the rest.
 
+use super::reactions::Meter;
 use super::sheet::{Outbox, Sample, WriterGone};
 use crate::Case;
 use crate::build::ProbePoint;
@@ -9,6 +10,8 @@ use taut::simulation::{Simulation, Totals};
 pub struct Recorder<'a> {
     case: &'a Case,
     points: Vec<ProbePoint>,
+    /// What each probe of a boundary, and each boundary for the looks, has seen.
+    meters: [Vec<Meter>; 2],
     outbox: Outbox,
     due: Due,
     /// Energies and momenta at the start, once it has started.
@@ -30,7 +33,8 @@ impl<'a> Recorder<'a> {
     /// A recorder before the start.
     pub fn new(case: &'a Case, points: Vec<ProbePoint>, outbox: Outbox) -> Self {
         let due = Due { probes: vec![0.0; points.len()], ..Due::default() };
-        Self { case, points, outbox, due, start: None }
+        let meters = [points.len(), case.boundaries.len()].map(|n| vec![Meter::default(); n]);
+        Self { case, points, meters, outbox, due, start: None }
     }
 
     /// Notes the state before the first step.
@@ -51,8 +55,14 @@ impl<'a> Recorder<'a> {
         for i in 0..self.points.len() {
             if time >= self.due.probes[i] {
                 self.due.probes[i] += self.case.probes[i].interval;
-                let value = self.points[i].value(simulation.solvers());
-                self.outbox.sheet.samples.push(Sample { probe: i, time, value });
+                let meter = &mut self.meters[0][i];
+                let value = match &self.points[i] {
+                    ProbePoint::Motion(followed) => Some(followed.value(simulation.solvers())),
+                    ProbePoint::Force(boundary) => meter.mean(simulation, *boundary).map(|r| r.linear),
+                    ProbePoint::Moment(boundary) => meter.mean(simulation, *boundary).map(|r| r.angular),
+                };
+                let sample = value.map(|value| Sample { probe: i, time, value });
+                self.outbox.sheet.samples.extend(sample);
             }
         }
         let (frame, look) = (time >= self.due.frame, time >= self.due.look);
@@ -86,6 +96,10 @@ impl<'a> Recorder<'a> {
         let sheet = &mut self.outbox.sheet;
         sheet.totals = simulation.snapshot(&mut sheet.snapshot);
         (sheet.step, sheet.look, sheet.measure, sheet.frame) = (step, look, measure, frame);
+        if look {
+            let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
+            sheet.reactions.extend(means);
+        }
         if frame {
             self.due.framed = Some(time);
         }

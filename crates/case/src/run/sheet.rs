@@ -11,6 +11,7 @@
 
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::Duration;
+use taut::integrator::Impulse;
 use taut::simulation::{Snapshot, Totals};
 
 /// So many samples of probes make a full sheet, even if nothing else is due.
@@ -39,6 +40,8 @@ pub struct Sheet {
     pub snapshot: Snapshot,
     /// Energies and momenta, likewise.
     pub totals: Totals,
+    /// Mean force and moment of every boundary since the look before, with `look`; none at the first.
+    pub reactions: Vec<Impulse>,
     /// Steps taken.
     pub step: u64,
     /// Whether to note the energies, and whether bodies touch.
@@ -60,6 +63,7 @@ impl Sheet {
 
     fn wipe(&mut self) {
         self.samples.clear();
+        self.reactions.clear();
         (self.look, self.measure, self.frame) = (false, false, false);
     }
 }

@@ -1,5 +1,7 @@
 //! What a run writes down, off the critical path: disorder, frames and tables.
 
+use super::alarm::{Alarm, Thresholds};
+use super::audit::Audit;
 use super::contact::Contact;
 use super::error::RunError;
 use super::frames::Framer;
@@ -11,6 +13,7 @@ use crate::Case;
 use crate::build::Watch;
 use output::{Frame, ProbeTable, ResultDir};
 use rayon::ThreadPool;
+use std::sync::Arc;
 
 /// The writer's side of the books.
 pub struct Writer<'a> {
@@ -25,10 +28,15 @@ pub struct Writer<'a> {
     pub series: Vec<Series>,
     /// Measures of disorder.
     pub disorder: DisorderHistory,
-    /// Time, kinetic, strain and total energy.
-    pub energies: Vec<[f64; 4]>,
+    /// The books of energy and momentum.
+    pub audit: Audit,
     /// What was doubtful.
     pub warnings: Vec<String>,
+    thresholds: Thresholds,
+    /// Where it is told that a run has to end.
+    pub alarm: Arc<Alarm>,
+    /// Time of the last frame, s.
+    framed: Option<f64>,
 }
 
 impl<'a> Writer<'a> {
@@ -44,9 +52,8 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
         for probe in &case.probes {
-            let unit = if probe.quantity == crate::Quantity::Velocity { "m/s" } else { "m" };
-            let columns: Vec<(&str, &str)> =
-                ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
+            let axes = &["x", "y", "z"][probe.quantity.axes(case.dimension)];
+            let columns: Vec<(&str, &str)> = axes.iter().map(|axis| (*axis, probe.quantity.unit())).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
         references(case, results)?;
@@ -61,9 +68,17 @@ impl<'a> Writer<'a> {
             contact: Contact::new(support),
             series: vec![Series::default(); case.probes.len()],
             disorder: DisorderHistory::default(),
-            energies: Vec::new(),
+            audit: Audit::create(case, results)?,
             warnings,
+            thresholds: Thresholds::default(),
+            alarm: Arc::default(),
+            framed: None,
         })
+    }
+
+    /// How many frames there are, and the time of the last one, s.
+    pub fn last_frame(&self) -> Option<(usize, f64)> {
+        Some((self.frames.frames(), self.framed?))
     }
 
     /// When bodies first touched, s.
@@ -92,6 +107,7 @@ impl<'a> Writer<'a> {
             inbox.back(sheet);
             if let Some((frame, bytes)) = frame {
                 self.frames.store(&frame, &bytes)?;
+                self.framed = Some(frame.time);
                 self.flush()?;
                 watcher.with(|observer| observer.framed(frame));
             }
@@ -104,12 +120,13 @@ impl<'a> Writer<'a> {
         for table in &mut self.tables {
             table.flush()?;
         }
-        Ok(())
+        self.audit.flush()
     }
 
     fn tabulate(&mut self, sheet: &Sheet) -> Result<(), RunError> {
         for sample in &sheet.samples {
-            self.tables[sample.probe].push(sample.time, &sample.value[..self.case.dimension])?;
+            let axes = self.case.probes[sample.probe].quantity.axes(self.case.dimension);
+            self.tables[sample.probe].push(sample.time, &sample.value[axes])?;
             let series = &mut self.series[sample.probe];
             series.times.push(sample.time);
             for (column, v) in series.values.iter_mut().zip(sample.value) {
@@ -134,8 +151,8 @@ impl<'a> Writer<'a> {
     }
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
-        let (time, totals) = (sheet.snapshot.time, &sheet.totals);
-        self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
+        let time = sheet.snapshot.time;
+        self.audit.look(sheet)?;
         if self.contact.is_awaited() {
             self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
         }
@@ -143,11 +160,12 @@ impl<'a> Writer<'a> {
             return Ok(());
         }
         let disorder = self.watch.measure(&sheet.snapshot)?;
-        let zigzag = disorder.zigzag_rms;
-        let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
-        if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
-            let warning =
-                format!("disorder: zigzag_rms is {zigzag:.4} at t = {time:.6} s; zero-energy modes grow");
+        let monitor = &self.case.monitor;
+        for crossed in self.thresholds.crossed(monitor, &disorder) {
+            if monitor.stop {
+                self.alarm.raise(crossed, self.watch.most_zigzag().unwrap_or(0) as u32);
+            }
+            let warning = crossed.warning(time);
             watcher.with(|observer| observer.warned(&warning));
             self.warnings.push(warning);
         }

@@ -1,9 +1,10 @@
 //! What a simulation needs of a body in time.
 
-use super::Diverged;
+use super::{Bounding, Diverged, Held, Impulse};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::pass::Now;
+use crate::run::Relist;
 use std::ops::Range;
 
 /// What there is to see of one particle, at the present time.
@@ -60,6 +61,14 @@ pub trait Solver: Send + Sync {
     fn begin(&mut self, dt: f64);
     /// The longest stable step now, s.
     fn stable_step(&self) -> f64;
+    /// What bounds that step.
+    fn bounding(&self) -> Bounding;
+    /// The particle, by id, that is at the bound: a search through all of them. `None` if all are alike.
+    fn at_bound(&self, bounding: &Bounding) -> Option<u32>;
+    /// How neighbours are found.
+    fn reach(&self) -> Relist;
+    /// The fields that its particles carry.
+    fn fields(&self) -> &'static [Quantity];
     /// The step up to where the next one can be known.
     ///
     /// # Errors
@@ -70,6 +79,11 @@ pub trait Solver: Send + Sync {
     /// # Errors
     /// If the state has left its bounds.
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
+
+    /// What holding these particles took in the step of `dt` that [`advance`](Self::advance) has just made.
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse;
+    /// What the body forces on these particles, by id, gave in it.
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse;
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];

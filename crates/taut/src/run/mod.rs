@@ -35,6 +35,27 @@ pub enum Among {
     SameBody,
 }
 
+/// One number of all particles, in the precision that it is kept in.
+#[derive(Clone, Copy, Debug)]
+pub enum Numbers<'a> {
+    /// In double precision.
+    Double(&'a [f64]),
+    /// In single precision.
+    Single(&'a [f32]),
+}
+
+impl Numbers<'_> {
+    /// The number of one particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(self, place: usize) -> f64 {
+        match self {
+            Self::Double(numbers) => numbers[place],
+            Self::Single(numbers) => f64::from(numbers[place]),
+        }
+    }
+}
+
 /// A back-end: it owns the particles and their pair list, and runs passes over them.
 pub trait Run<const D: usize>: Send + Sync {
     /// The particles. In a single run only what is integrated in time is up to date here; [`Run::word`] always is.
@@ -46,6 +67,11 @@ pub trait Run<const D: usize>: Send + Sync {
     /// One number of one particle, as it is now.
     fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
         self.particles().column(field, word)[place]
+    }
+
+    /// One number of all particles, as it is now.
+    fn numbers(&self, field: Quantity, word: usize) -> Numbers<'_> {
+        Numbers::Double(self.particles().column(field, word))
     }
 
     /// Sets one number of one particle.
@@ -61,6 +87,12 @@ pub trait Run<const D: usize>: Send + Sync {
 
     /// Mean number of neighbours in the last [`Run::relist`].
     fn neighbours(&self) -> f64;
+
+    /// The place of the particle with the fewest neighbours in the last [`Run::relist`], and how many those are; `None` if all
+    /// stand on a lattice, which nobody leaves, or nobody counts.
+    fn loneliest(&self) -> Option<(usize, usize)> {
+        None
+    }
 
     /// For every particle: `sum` over its neighbours, and what follows from it.
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>);

@@ -7,6 +7,7 @@ mod common;
 mod constraints;
 mod divergence;
 mod energy;
+mod impulses;
 mod lanes;
 mod momentum;
 mod patch;
