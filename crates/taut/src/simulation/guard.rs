@@ -68,7 +68,7 @@ impl Look {
     fn of(solvers: &[Box<dyn Solver>]) -> Self {
         let (mut look, mut first) = (Self::default(), 0);
         for solver in solvers {
-            solver.show(&mut |seen| look.take(first, seen));
+            solver.show(0..solver.len(), &mut |seen| look.take(first, seen));
             first += solver.len() as u32;
         }
         look
