@@ -56,6 +56,8 @@ const WRONG: &[Wrong] = &[
     (RINGS, "ul-non-hourglass", "ul-generalised"),
     (RINGS, "linear-elastic", "neo-hookean"),
     (PLATE, "dimension = 2", "dimension = 2\nstepping = \"dual\""),
+    (PLATE, "dimension = 2", "dimension = 2\nalpha = 5"),
+    (PLATE, "dimension = 2", "dimension = 2\nformulation = \"tl-ganzenmueller\"\nalpha = -1"),
     (RINGS, "material = \"rubber\"", "material = \"ruber\""),
     (PLATE, "[\"strip\", \"block\"]", "[\"strip\", \"blok\"]"),
     (PLATE, "fixed = true", "fixed = true\nfix = [\"x\"]"),

@@ -1,13 +1,16 @@
 //! The match over formulations and materials.
 
 use super::bodies::Group;
-use crate::{Body, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule, Stepping};
+use crate::{
+    Body, Calibration, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule,
+    Stepping,
+};
 use taut::formulation::updated::Hypoelastic;
 use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
 use taut::simulation::{
-    InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+    self, InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
 };
 
 /// The plane as the material sees it.
@@ -59,7 +62,7 @@ where
     let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
     let points = Point::points(&group.points);
     match scheme.march {
-        March::Total { step } => {
+        March::Total { step, calibration, alpha } => {
             let options = TotalOptions {
                 kernel,
                 cfl: scheme.cfl,
@@ -68,7 +71,11 @@ where
             };
             let form = match scheme.formulation {
                 Formulation::TlNested => TotalForm::Nested,
-                _ => TotalForm::HourglassFree,
+                Formulation::TlGanzenmueller => TotalForm::Ganzenmueller(alpha),
+                _ => TotalForm::HourglassFree(match calibration {
+                    Calibration::Paper => simulation::Calibration::Paper,
+                    Calibration::Lattice => simulation::Calibration::Lattice,
+                }),
             };
             let law = law(case, body, all[index]);
             total_body(points, (form, law), options, numbers).ok_or_else(|| {

@@ -1,6 +1,6 @@
 //! What a case means when it does not say: every default, and why it is so.
 
-use super::choices::{Family, Formulation, Kernel, Plane, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
 
 /// Total Lagrangian: cheapest for elastic solids, and free of tensile instability; this one is free of
 /// hourglass modes as well.
@@ -44,6 +44,12 @@ pub(crate) const STEP: StepRule = StepRule::Stretch;
 /// No floor, in m/s: right for impacts, which never come to rest.
 pub(crate) const REFERENCE_SPEED: f64 = 0.0;
 
+/// The strength of Ganzenmueller's control that tames the paper's cases.
+pub(crate) const ALPHA: f64 = 10.0;
+
+/// What the paper's figures were made with.
+pub(crate) const CALIBRATION: Calibration = Calibration::Paper;
+
 /// Frames of a run, when no interval is given: enough for a smooth film of moderate size.
 pub(crate) const FRAMES: f64 = 50.0;
 
@@ -80,6 +86,8 @@ mod tests {
         assert_eq!(said(&case::KERNEL), word(KERNEL));
         assert_eq!(said(&time::STEP), word(STEP));
         assert_eq!(said(&case::REFERENCE_SPEED), REFERENCE_SPEED.to_string());
+        assert_eq!(said(&case::ALPHA), ALPHA.to_string());
+        assert_eq!(said(&case::CALIBRATION), word(CALIBRATION));
         assert_eq!(said(&time::OUTPUT), format!("end/{FRAMES}"));
         assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
         let nested = Formulation::UlNested;

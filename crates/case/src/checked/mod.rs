@@ -27,7 +27,7 @@ mod time;
 
 pub use body::{Body, Fill};
 pub use case::Case;
-pub use choices::{Axis, Family, Formulation, Kernel, Plane, StepRule, Stepping};
+pub use choices::{Axis, Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
 pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
 pub use load::{Boundary, Constraint, Gravity, Initial};

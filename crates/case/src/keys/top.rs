@@ -6,7 +6,7 @@ pub(crate) mod case {
         Key, Kind, Need, Range, Table, Words, body, boundary, gravity, initial, measure, probe,
     };
     use super::{material, monitor, region, time};
-    use crate::checked::{Formulation, Kernel, Plane, Stepping};
+    use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
     use crate::units::Dimension;
 
     pub(crate) const NAME: Key = Key::new(
@@ -65,6 +65,18 @@ pub(crate) mod case {
         Need::Default("0"),
         "Least speed of the advection step of updated Lagrangian bodies: they renew their neighbours at least as often as if something moved at this speed. For bodies that come to rest.",
     );
+    pub(crate) const ALPHA: Key = Key::new(
+        "alpha",
+        Kind::Number(Dimension::NUMBER, Range::NotNegative),
+        Need::Default("10"),
+        "Strength of the hourglass control of `tl-ganzenmueller`: a number to be tuned. Too little lets zigzag grow, too much makes bodies too stiff.",
+    );
+    pub(crate) const CALIBRATION: Key = Key::new(
+        "calibration",
+        Kind::Choice(Calibration::choices),
+        Need::Default("paper"),
+        "The factors of the force of `tl-hourglass-free`.",
+    );
     const PARAMETERS: Key = Key::new(
         "parameters",
         Kind::Parameters,
@@ -91,6 +103,8 @@ pub(crate) mod case {
             KERNEL,
             SMOOTHING,
             REFERENCE_SPEED,
+            ALPHA,
+            CALIBRATION,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),

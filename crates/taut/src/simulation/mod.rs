@@ -4,7 +4,9 @@ mod body;
 mod particles;
 mod snapshot;
 
-pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies};
+pub use body::{
+    Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
+};
 pub use particles::{Point, total, updated};
 pub use snapshot::{Snapshot, Totals};
 

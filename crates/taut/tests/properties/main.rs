@@ -8,6 +8,7 @@ mod constraints;
 mod divergence;
 mod energy;
 mod lanes;
+mod moduli;
 mod momentum;
 mod patch;
 mod plane;
