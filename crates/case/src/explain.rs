@@ -165,6 +165,23 @@ fn times(case: &Case) -> Vec<String> {
         time(case.time.end),
         time(case.time.output)
     )];
+    if let Some(s) = case.quasi_static {
+        lines = vec![format!(
+            "loads grow in {} increments up to t = {}, each held until unbalanced forces are below {} of the stress; frames are written for equilibria, every {}",
+            s.increments,
+            time(case.time.end),
+            s.tolerance,
+            time(case.time.output)
+        )];
+    }
+    if let Some(d) = case.damping {
+        lines.push(format!(
+            "all motion is damped, in {} of the steps chosen at random (seed {})",
+            d.probability, d.seed
+        ));
+    } else if case.quasi_static.is_some() {
+        lines.push("motion is stopped whenever the kinetic energy has passed a maximum, and stretched particles are made heavier".into());
+    }
     let updated = case.bodies.iter().find_map(|body| match body.scheme.march {
         March::Updated { stepping, .. } => Some(stepping),
         March::Total { .. } => None,

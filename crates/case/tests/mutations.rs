@@ -9,14 +9,13 @@ use samples::parse;
 /// A case that is right and uses every table.
 const BASE: &str = r#"name = "all"
 dimension = 2
-formulation = "ul-non-hourglass"
 spacing = 0.1
 
 [parameters]
 p = 1
 
 [material.rubber]
-model = "linear-elastic"
+model = "neo-hookean"
 density = 1000
 youngs_modulus = 1e7
 poisson_ratio = 0.45
@@ -42,6 +41,12 @@ acceleration = [0, 0]
 
 [time]
 end = 1
+
+[damping]
+probability = 0.5
+
+[quasi_static]
+increments = 2
 
 [monitor]
 zigzag = 0.1

@@ -28,7 +28,18 @@ impl ProbeTable {
     pub fn create(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let folder = results.path().join("probes");
         std::fs::create_dir_all(&folder).map_err(|cause| OutputError::write(&folder, cause))?;
-        let path = folder.join(format!("{}.csv", checked(name)?));
+        Self::at(folder.join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    /// Starts a table `NAME.csv` beside the summary, likewise.
+    ///
+    /// # Errors
+    /// As [`create`](ProbeTable::create).
+    pub fn beside(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
+        Self::at(results.path().join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    fn at(path: PathBuf, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
             Ok(file) => file,
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {

@@ -8,14 +8,16 @@ mod gap;
 mod observe;
 mod shapes;
 mod solvers;
+mod statics;
 mod thickness;
 
 pub use afford::{available_memory, reckon};
 pub use observe::{Observed, ProbePoint, Watch};
 pub(crate) use shapes::bounds;
+pub(crate) use statics::increments;
 
 use crate::{Case, CaseError};
-use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Damping, Drive, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -23,6 +25,8 @@ pub struct Built {
     pub solvers: Vec<Box<dyn Solver>>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
+    /// What damps all motion.
+    pub damping: Option<Box<dyn Damping>>,
     /// Where each probe reads.
     pub probes: Vec<ProbePoint>,
     /// The measure of disorder.
@@ -71,5 +75,6 @@ where
     let (watch, body) = observe::disorder(case, &groups)?;
     let across = thickness::across(case, &groups);
     let warnings = doubts::warnings(case, &groups, &across);
-    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings, across })
+    let damping = statics::damping(case, &groups);
+    Ok(Built { solvers, drives, damping, probes, watch, body, numbers, warnings, across })
 }

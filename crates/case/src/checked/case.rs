@@ -11,6 +11,7 @@ use super::measure::Measure;
 use super::probe::Probe;
 use super::read;
 use super::shape::ShapeSpec;
+use super::statics::{Damping, Statics};
 use super::time::{Monitor, Time};
 use crate::diagnostic::{CaseError, Diagnostic, render_warnings};
 use crate::source::{Overrides, Place, Sources};
@@ -48,6 +49,10 @@ pub struct Case {
     pub gravity: Vec<Gravity>,
     /// How long the run is.
     pub time: Time,
+    /// Damping of all motion.
+    pub damping: Option<Damping>,
+    /// Whether equilibria are looked for, and how.
+    pub quasi_static: Option<Statics>,
     /// The watch over disorder.
     pub monitor: Monitor,
     /// Recorded points.

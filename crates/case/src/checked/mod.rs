@@ -23,6 +23,7 @@ mod scope;
 mod shape;
 mod shape_reader;
 mod shape_solids;
+mod statics;
 mod time;
 
 pub use body::{Body, Fill};
@@ -37,4 +38,5 @@ pub use measure::{Extremum, Feature, Measure, MeasureKind};
 pub use probe::{Probe, Quantity, Spot};
 pub use scheme::{March, Scheme};
 pub use shape::ShapeSpec;
+pub use statics::{Damping, Statics};
 pub use time::{Monitor, Time};

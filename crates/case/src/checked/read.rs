@@ -6,7 +6,7 @@ use super::case::Case;
 use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
-use super::{parameters, time};
+use super::{parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
@@ -55,6 +55,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     let spacing = problems.keep(scope.need(&top, &keys::SPACING));
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
+    let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
     let (time, monitor) = times?;
     Some(Case {
         name,
@@ -73,6 +74,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         initial: parts.initial,
         gravity: parts.gravity,
         time,
+        damping,
+        quasi_static,
         monitor,
         probes: parts.probes,
         measures: parts.measures,

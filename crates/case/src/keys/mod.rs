@@ -5,10 +5,12 @@ mod page;
 mod parts;
 mod schema;
 mod shapes;
+mod statics;
 mod top;
 
 pub(crate) use parts::{body, boundary, gravity, initial, measure, probe};
 pub(crate) use shapes::{fill, shape};
+pub(crate) use statics::{damping, quasi_static};
 pub(crate) use top::{case, material, monitor, region, time};
 
 use crate::units::Dimension;

@@ -3,7 +3,8 @@
 /// The top level.
 pub(crate) mod case {
     use super::super::{
-        Key, Kind, Need, Range, Table, Words, body, boundary, gravity, initial, measure, probe,
+        Key, Kind, Need, Range, Table, Words, body, boundary, damping, gravity, initial, measure, probe,
+        quasi_static,
     };
     use super::{material, monitor, region, time};
     use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
@@ -113,6 +114,8 @@ pub(crate) mod case {
             table("initial", Kind::List(&initial::TABLE), Need::Optional, &initial::TABLE),
             table("gravity", Kind::List(&gravity::TABLE), Need::Optional, &gravity::TABLE),
             table("time", Kind::Table(&time::TABLE), Need::Required, &time::TABLE),
+            table("damping", Kind::Table(&damping::TABLE), Need::Optional, &damping::TABLE),
+            table("quasi_static", Kind::Table(&quasi_static::TABLE), Need::Optional, &quasi_static::TABLE),
             table("monitor", Kind::Table(&monitor::TABLE), Need::Optional, &monitor::TABLE),
             table("probe", Kind::List(&probe::TABLE), Need::Optional, &probe::TABLE),
             table("measure", Kind::List(&measure::TABLE), Need::Optional, &measure::TABLE),

@@ -1,10 +1,11 @@
 //! Closing the books: `summary.json`.
 
+use super::convergence::Convergence;
 use super::error::RunError;
 use super::measures::Evidence;
 use super::writer::Writer;
 use crate::Case;
-use output::summary::{Balance, Energy, Failure, Momentum, Status};
+use output::summary::{Balance, Energy, Failure, Momentum, Settled, Status};
 use output::{ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
@@ -26,6 +27,8 @@ pub struct Books<'a> {
     pub start: Option<Totals>,
     /// Wall time, s.
     pub wall: f64,
+    /// What became of the increments of a quasi-static run.
+    pub convergence: Option<Convergence>,
 }
 
 impl Books<'_> {
@@ -33,9 +36,10 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If the summary cannot be written.
-    pub fn done(self) -> Result<Summary, RunError> {
+    pub fn done(mut self) -> Result<Summary, RunError> {
         let results = self.results;
-        let summary = Summary { status: Status::Done, ..self.summary() };
+        let quasi_static = self.settle()?;
+        let summary = Summary { status: Status::Done, quasi_static, ..self.summary() };
         summary.write(results)?;
         Ok(summary)
     }
@@ -44,11 +48,20 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If the summary cannot be written.
-    pub fn diverged(self, diverged: Diverged) -> Result<RunError, RunError> {
+    pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
+        let quasi_static = self.settle()?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
-        failed(summary, &diverged).write(results)?;
+        Summary { quasi_static, ..failed(summary, &diverged) }.write(results)?;
         Ok(RunError::Diverged { diverged: Box::new(diverged), results: results.path().to_path_buf() })
+    }
+
+    /// What the summary says of increments; a warning goes to the others.
+    fn settle(&mut self) -> Result<Option<Settled>, RunError> {
+        let Some(convergence) = self.convergence.take() else { return Ok(None) };
+        let (settled, warning) = convergence.settled(self.case)?;
+        self.writer.warnings.extend(warning);
+        Ok(Some(settled))
     }
 
     /// The summary of a run whose initial state is not admissible.

@@ -1,6 +1,6 @@
 //! What a simulation needs of a body in time.
 
-use super::Diverged;
+use super::{Diverged, Relax};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::pass::Now;
@@ -69,6 +69,11 @@ pub trait Solver: Send {
     /// # Errors
     /// If the state has left its bounds.
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
+
+    /// The same as something that can be brought to rest, if it can.
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        None
+    }
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];

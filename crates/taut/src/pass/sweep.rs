@@ -1,0 +1,20 @@
+//! An exchange between the two particles of a pair.
+
+use crate::field::{Of, Record};
+
+/// What two neighbours exchange, one pair after the other, each seeing what the pairs before it have left: implicit steps that a
+/// gather cannot express. Always in double precision; the order of the pairs is that of [`Sweeper`](crate::run::Sweeper).
+pub trait PairSweep<const D: usize>: Sync {
+    /// What is read of a particle and does not change.
+    type Given: Record<D>;
+    /// What the exchange changes.
+    type State: Record<D>;
+
+    /// The new states of a and b; `w = W'(r) / r` of the pair, 1/m^(D+2), not positive.
+    fn exchange(
+        &self,
+        given: (&Of<Self::Given, f64, D>, &Of<Self::Given, f64, D>),
+        state: (Of<Self::State, f64, D>, Of<Self::State, f64, D>),
+        w: f64,
+    ) -> (Of<Self::State, f64, D>, Of<Self::State, f64, D>);
+}
