@@ -44,9 +44,9 @@ mod written;
 
 pub use checked::{
     Axis, Body, Boundary, Calibration, Case, Constraint, Damping, Elastic, Extremum, Family, Feature,
-    FieldExpression, Fill, Formulation, Gravity, Initial, Kernel, March, Material, Measure, MeasureKind,
-    Model, Monitor, Plane, Probe, Quantity, Scheme, ShapeSpec, Spot, Statics, StepRule, Stepping, Time,
-    VectorField,
+    FieldExpression, Fill, Formulation, Gravity, History, Initial, Kernel, Load, LoadKind, March, Material,
+    Measure, MeasureKind, Model, Monitor, Plane, Probe, Quantity, Scheme, ShapeSpec, Spot, Statics, StepRule,
+    Stepping, Time, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use explain::explain;

@@ -39,6 +39,10 @@ velocity = [0, 0]
 [[gravity]]
 acceleration = [0, 0]
 
+[[load]]
+region = "some"
+force = [0, 0]
+
 [time]
 end = 1
 
@@ -119,7 +123,7 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
         }
         Kind::True => wrong.extend(["false", "1", "\"true\"", "[]", "{}"]),
         Kind::OneOf(_) | Kind::Count => wrong.extend(["0", "-1", "1.5", "\"2\"", "[2]", "true", "{}"]),
-        Kind::Number(..) | Kind::OfProbe => {
+        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) => {
             wrong.extend(["true", "[1]", "{}", "nan", "inf", "\"\"", "\"2 +\""])
         }
         Kind::Vector(_) | Kind::Pair(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
@@ -136,6 +140,17 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
             ]);
         }
         Kind::Pairs(_) => wrong.extend(["1", "[]", "[[0, 0], [1, 1]]", "[[0], [1], [2]]"]),
+        Kind::History => wrong.extend([
+            "1",
+            "[]",
+            "[1]",
+            "[[1]]",
+            "[[0, 0], [0, 1]]",
+            "[[1, 0], [0, 1]]",
+            "[[\"1 m\", 0]]",
+            "\"no such.csv\"",
+            "{}",
+        ]),
         Kind::Axes => wrong.extend(["1", "\"x\"", "[]", "[\"q\"]", "[1]", "[\"z\"]"]),
         Kind::Shape => wrong.extend(["1", "[]", "{}", "\"nowhere\"", "{ blob = {} }", "{ box = 1 }"]),
         Kind::Shapes => wrong.extend(["1", "[]", "{}"]),
@@ -150,7 +165,7 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
 /// Values of a wrong unit for a kind; angles and shares have no unit to be wrong in, but a mass is wrong everywhere.
 fn wrong_units(kind: &Kind) -> Vec<&'static str> {
     match kind {
-        Kind::Number(..) | Kind::OfProbe => vec!["\"3 kg\"", "\"3 W\"", "\"3 lightyears\""],
+        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) => vec!["\"3 kg\"", "\"3 W\"", "\"3 lightyears\""],
         Kind::Vector(_) | Kind::Pair(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
             vec!["[\"3 kg\", 1]", "[1, \"3 W\"]", "[\"3 lightyears\", 1]"]
         }

@@ -128,6 +128,11 @@ fn total<'a>(fields: impl Iterator<Item = &'a VectorField>, x: [f64; 3], t: f64)
 }
 
 impl Driven {
+    /// Particles whose body force is set in every step.
+    pub fn pulled(&self) -> std::collections::HashSet<(usize, usize)> {
+        self.forces.iter().map(|&((g, i, _), _)| (g, i)).collect()
+    }
+
     /// The drives.
     pub fn drives(self) -> Vec<Box<dyn Drive>> {
         let mut drives: Vec<Box<dyn Drive>> = Vec::new();

@@ -5,10 +5,12 @@ mod bodies;
 mod doubts;
 mod drives;
 mod gap;
+mod loads;
 mod observe;
 mod shapes;
 mod solvers;
 mod statics;
+mod surface;
 mod thickness;
 
 pub use afford::{available_memory, reckon};
@@ -68,9 +70,11 @@ where
     let mut groups = bodies::groups::<D>(case)?;
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
+    let loads = loads::loads(case, &mut groups, &driven.pulled())?;
     let solver = |group| solvers::solver(case, group, numbers);
     let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
-    let drives = driven.drives();
+    // Loads add to what the others set.
+    let drives = driven.drives().into_iter().chain(loads).collect();
     let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, &groups)?;
     let across = thickness::across(case, &groups);

@@ -27,7 +27,8 @@ pub fn moduli(material: &Material) -> Moduli {
     Moduli { density: material.density, bulk: e.bulk_modulus, shear: e.shear_modulus }
 }
 
-fn kernel<const D: usize>(case: &Case, h: f64) -> kernel::Kernel {
+/// The kernel of a smoothing length.
+pub fn kernel<const D: usize>(case: &Case, h: f64) -> kernel::Kernel {
     let shape = match case.kernel {
         Kernel::WendlandC2 => kernel::Shape::WendlandC2,
         Kernel::CubicSpline => kernel::Shape::CubicSpline,

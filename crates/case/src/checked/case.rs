@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
+use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
 use super::measure::Measure;
@@ -47,6 +48,8 @@ pub struct Case {
     pub initial: Vec<Initial>,
     /// Body forces.
     pub gravity: Vec<Gravity>,
+    /// Forces on particles and surfaces.
+    pub loads: Vec<Load>,
     /// How long the run is.
     pub time: Time,
     /// Damping of all motion.

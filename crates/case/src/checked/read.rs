@@ -6,6 +6,7 @@ use super::case::Case;
 use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
+use super::scope::Scope;
 use super::{parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
@@ -48,7 +49,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     top.only(keys::TABLE.keys, problems);
     let Head { name, title, dimension, plane, kernel } = head(&top, problems)?;
     let before = problems.0.len();
-    let scope = parameters::read(root, dimension, problems);
+    let scope = Scope { folder: sources.folder(), ..parameters::read(root, dimension, problems) };
     if problems.0.len() > before {
         return None;
     }
@@ -73,6 +74,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         boundaries: parts.boundaries,
         initial: parts.initial,
         gravity: parts.gravity,
+        loads: parts.loads,
         time,
         damping,
         quasi_static,

@@ -3,8 +3,8 @@
 /// The top level.
 pub(crate) mod case {
     use super::super::{
-        Key, Kind, Need, Range, Table, Words, body, boundary, damping, gravity, initial, measure, probe,
-        quasi_static,
+        Key, Kind, Need, Range, Table, Words, body, boundary, damping, gravity, initial, load, measure,
+        probe, quasi_static,
     };
     use super::{material, monitor, region, time};
     use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
@@ -113,6 +113,7 @@ pub(crate) mod case {
             table("boundary", Kind::List(&boundary::TABLE), Need::Optional, &boundary::TABLE),
             table("initial", Kind::List(&initial::TABLE), Need::Optional, &initial::TABLE),
             table("gravity", Kind::List(&gravity::TABLE), Need::Optional, &gravity::TABLE),
+            table("load", Kind::List(&load::TABLE), Need::Optional, &load::TABLE),
             table("time", Kind::Table(&time::TABLE), Need::Required, &time::TABLE),
             table("damping", Kind::Table(&damping::TABLE), Need::Optional, &damping::TABLE),
             table("quasi_static", Kind::Table(&quasi_static::TABLE), Need::Optional, &quasi_static::TABLE),

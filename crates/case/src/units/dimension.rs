@@ -26,6 +26,8 @@ impl Dimension {
     pub const PRESSURE: Self = Self::new(1, -1, -2);
     /// m/s
     pub const SPEED: Self = Self::new(0, 1, -1);
+    /// N
+    pub const FORCE: Self = Self::new(1, 1, -2);
     /// Pa s
     pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// m/s^2
@@ -84,7 +86,7 @@ const NAMES: &[(Dimension, &str, &str)] = &[
     (Dimension::new(0, 2, 0), "an area", "m^2"),
     (Dimension::new(0, 3, 0), "a volume", "m^3"),
     (Dimension::new(0, 0, -1), "a frequency", "Hz"),
-    (Dimension::new(1, 1, -2), "a force", "N"),
+    (Dimension::FORCE, "a force", "N"),
     (Dimension::new(1, 2, -2), "an energy", "J"),
     (Dimension::new(1, 2, -3), "a power", "W"),
 ];

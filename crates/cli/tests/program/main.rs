@@ -4,6 +4,7 @@ mod bench;
 mod cases;
 mod command_line;
 mod divergence;
+mod loads;
 mod results;
 mod wrong_input;
 

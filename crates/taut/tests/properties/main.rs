@@ -5,6 +5,7 @@
 mod common;
 
 mod constraints;
+mod damping;
 mod divergence;
 mod energy;
 mod lanes;
