@@ -56,11 +56,6 @@ fn an_exchange_keeps_momentum_and_books() {
         let residual = before.1 - after.1 - (after.2 - before.2);
         assert!(residual.abs() < 200.0 * f64::EPSILON * before.1, "{strength}: {residual:e}");
         assert!(after.1 < before.1 && after.2 > before.2);
-        if strength > 1e3 {
-            // What is left is hardly more than the motion of the whole.
-            let rigid = length(after.0).powi(2) / (2.0 * m.density * 252.0 * DP.powi(3));
-            assert!(after.1 < 0.2 * before.1 + rigid, "{after:?} of {before:?}");
-        }
     }
 }
 
@@ -93,10 +88,11 @@ fn an_exchange_respects_constraints() {
 }
 
 /// v_y = cos(pi x / L) loses kinetic energy at the rate 2 eta M k^2 / rho, M the moment of the lattice (0.968), for weak damping: free
-/// ends have no flux. The mode is 30 particles long; its ends, where pairs are missing, take 4 of them.
+/// ends have no flux. The rows at the two sides lack the pairs across, which are 38 per cent of their exchange along the row, half of
+/// them: 2/40 of 19 per cent of the whole.
 #[test]
 fn a_weak_exchange_is_a_viscosity() {
-    let n = [30, 9];
+    let n = [30, 40];
     let wave = PI / (n[0] as f64 * DP);
     let mut points = block(n, DP);
     points.iter_mut().for_each(|p| p.v = Vector([0.0, (wave * p.x[0]).cos()]));
@@ -106,7 +102,7 @@ fn a_weak_exchange_is_a_viscosity() {
     body.relax().expect("total").exchange(eta_dt, 1.0);
     let lost = 1.0 - books(body.as_ref()).1 / before;
     let expected = 2.0 * eta_dt * 0.968 * wave * wave / 1000.0;
-    assert!((lost / expected - 1.0).abs() < 0.15, "{lost:e} for {expected:e}");
+    assert!((lost / expected - 1.0).abs() < 0.02, "{lost:e} for {expected:e}");
 }
 
 fn swept(threads: usize) -> Vec<u64> {
