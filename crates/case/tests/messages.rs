@@ -57,6 +57,32 @@ const WRONG: &[Wrong] = &[
     (RINGS, "linear-elastic", "neo-hookean"),
     (PLATE, "dimension = 2", "dimension = 2\nstepping = \"dual\""),
     (PLATE, "dimension = 2", "dimension = 2\nalpha = 5"),
+    (
+        PLATE,
+        "[[gravity]]\nacceleration = [0, \"-9.81 m/s^2\"]",
+        "[[load]]\nregion = \"strip\"\ntraction = [0, \"1 kPa\"]\npressure = 3",
+    ),
+    (
+        PLATE,
+        "[[gravity]]\nacceleration = [0, \"-9.81 m/s^2\"]",
+        "[[load]]\nat = [\"L\", 0]\ntraction = [0, \"1 kPa\"]",
+    ),
+    (
+        PLATE,
+        "[[gravity]]\nacceleration = [0, \"-9.81 m/s^2\"]",
+        "[[load]]\nat = [\"L\", 0]\nforce = [0, \"1 kPa\"]\nhistory = [[0, 0], [\"1 ms\", 1], [0, 1]]",
+    ),
+    (
+        PLATE,
+        "[[gravity]]\nacceleration = [0, \"-9.81 m/s^2\"]",
+        "[[load]]\nat = [\"L\", 0]\nforce = [0, \"1 N\"]\nhistory = \"gone.csv\"",
+    ),
+    (
+        PLATE,
+        "[time]\n",
+        "[quasi_static]\nincrements = 0\ntolerance = 2\n[damping]\nviscosity = \"1 Pa\"\n\n[time]\n",
+    ),
+    (RINGS, "[time]\n", "[quasi_static]\n\n[time]\n"),
     (PLATE, "dimension = 2", "dimension = 2\nformulation = \"tl-ganzenmueller\"\nalpha = -1"),
     (RINGS, "material = \"rubber\"", "material = \"ruber\""),
     (PLATE, "[\"strip\", \"block\"]", "[\"strip\", \"blok\"]"),

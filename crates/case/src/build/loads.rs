@@ -2,7 +2,7 @@
 
 use super::bodies::{Group, checked, padded, vector};
 use super::surface::{Face, Surface};
-use crate::{Case, CaseError, Load, LoadKind, Spot};
+use crate::{Case, CaseError, Formulation, Load, LoadKind, Spot};
 use std::collections::{HashMap, HashSet};
 use taut::field::Quantity;
 use taut::math::{Tensor, Vector};
@@ -19,6 +19,8 @@ struct Share {
     x: [f64; 3],
     /// Acceleration by a unit of the load: share of the force over the mass, or area over mass (times the normal of the face).
     per_unit: f64,
+    /// The particle on the surface whose deformation turns the face.
+    turned_by: Member,
     /// Outer normal of the undeformed face; zero for what has none.
     normal: [f64; 3],
 }
@@ -93,7 +95,7 @@ fn shares<const D: usize>(
         (_, Spot::Region(region)) => {
             let region = checked::<D>(case, region, load.place)?;
             let surface = Surface::of(case, load, groups)?;
-            Ok(surface.faces(&region).map(|face| on_face(case, groups, face)).collect())
+            Ok(surface.faces(&region).flat_map(|face| on_face(case, groups, face)).collect())
         }
         (_, Spot::Point(_)) => Ok(Vec::new()),
     }
@@ -128,7 +130,8 @@ fn weighted<const D: usize>(
         }
     }
     let total: f64 = found.iter().map(|(_, _, w, _)| w).sum();
-    let share = |(member, x, w, m)| Share { member, x, per_unit: w / total / m, normal: [0.0; 3] };
+    let share =
+        |(member, x, w, m)| Share { member, x, per_unit: w / total / m, turned_by: member, normal: [0.0; 3] };
     found.into_iter().map(share).collect()
 }
 
@@ -137,10 +140,26 @@ fn mass<const D: usize>(case: &Case, point: &Point<D>) -> f64 {
     case.material_of(body).map_or(f64::NAN, |m| m.density) * point.volume
 }
 
-fn on_face<const D: usize>(case: &Case, groups: &[Group<'_, D>], face: &Face) -> Share {
-    let point = &groups[face.member.0].points[face.member.1];
+/// The shares of a face. The stress of the nested forms, whose force and gradient are adjoint, is in balance with loads on the face itself, half
+/// a spacing outside of the particle: on the point extrapolated from the two outermost particles, 3/2 and -1/2. That of the others is in balance
+/// with loads on the outermost particle.
+fn on_face<const D: usize>(case: &Case, groups: &[Group<'_, D>], face: &Face) -> Vec<Share> {
     let area = case.spacing.powi(D as i32 - 1);
-    Share { member: face.member, x: face.middle, per_unit: area / mass(case, point), normal: face.normal }
+    let at = |member: Member| &groups[member.0].points[member.1];
+    let formulation = case.bodies[at(face.member).body as usize].scheme.formulation;
+    let adjoint = matches!(formulation, Formulation::TlNested | Formulation::TlGanzenmueller);
+    let parts = match face.behind.filter(|_| adjoint) {
+        Some(behind) => vec![(face.member, 1.5), (behind, -0.5)],
+        None => vec![(face.member, 1.0)],
+    };
+    let share = |(member, part): (Member, f64)| Share {
+        member,
+        x: face.middle,
+        per_unit: part * area / mass(case, at(member)),
+        turned_by: face.member,
+        normal: face.normal,
+    };
+    parts.into_iter().map(share).collect()
 }
 
 impl Share {
@@ -156,7 +175,7 @@ impl Share {
     /// The acceleration by a pressure: -p J F^-T N dA / m (Nanson).
     fn following<const D: usize>(&self, load: &Load, (solver, t): (&dyn Solver, f64)) -> [f64; 3] {
         let LoadKind::Pressure(field) = &load.kind else { return [0.0; 3] };
-        let place = solver.stored(self.member.1);
+        let place = solver.stored(self.turned_by.1);
         let f =
             Tensor::<f64, D>::from_fn(|i, j| solver.word(Quantity::DeformationGradient, i * D + j, place));
         let turned = f.cofactor().mul_vector(vector(self.normal));

@@ -3,12 +3,14 @@
 use super::bodies::{Group, padded};
 use crate::{Case, CaseError, Family, Fill, Load, LoadKind};
 use geometry::Shape;
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 /// An outer face of a particle.
 pub struct Face {
     /// The particle: its group and its index there.
     pub member: (usize, usize),
+    /// The one behind it, if there is one.
+    pub behind: Option<(usize, usize)>,
     /// Middle of the undeformed face, m.
     pub middle: [f64; 3],
     /// Outer normal of the undeformed face.
@@ -73,19 +75,21 @@ fn outer<const D: usize>(
             .flat_map(|(g, group)| group.points.iter().enumerate().map(move |(i, p)| ((g, i), p)));
         all.filter(|(_, point)| point.body == body)
     };
-    let taken: HashSet<[i64; 3]> = mine().map(|(_, point)| cell(padded(point.x))).collect();
+    let taken: HashMap<[i64; 3], (usize, usize)> =
+        mine().map(|(m, point)| (cell(padded(point.x)), m)).collect();
     for (member, point) in mine() {
         let (x, here) = (padded(point.x), cell(padded(point.x)));
         for (axis, side) in (0..D).flat_map(|axis| [(axis, -1), (axis, 1)]) {
             let mut next = here;
             next[axis] += side;
-            if taken.contains(&next) {
+            if taken.contains_key(&next) {
                 continue;
             }
             let (mut middle, mut normal) = (x, [0.0; 3]);
             normal[axis] = side as f64;
             middle[axis] += 0.5 * side as f64 * spacing;
-            faces.push(Face { member, middle, normal });
+            next[axis] -= 2 * side;
+            faces.push(Face { member, behind: taken.get(&next).copied(), middle, normal });
         }
     }
 }

@@ -9,7 +9,7 @@ pub(crate) const REGION: Key = Key::new(
     "region",
     Kind::Shape,
     Need::Optional,
-    "Where it acts: for `force` on the particles whose reference position is in this shape, for `traction` and `pressure` on the outer faces of particles whose middle is in it (half a spacing outside of the particles themselves).",
+    "Where it acts: for `force` on the particles whose reference position is in this shape, for `traction` and `pressure` on the outer faces of particles whose middle is in it (half a spacing outside of the particles: a box a quarter of a spacing to both sides of a side has the faces of that side alone).",
 );
 pub(crate) const AT: Key = Key::new(
     "at",
@@ -49,5 +49,5 @@ pub(crate) const TABLE: Table = Table {
     header: "[[load]]",
     doc: "A force on particles or on a part of the surface: exactly one of force, traction and pressure; several add up. Surfaces are the outer faces of particles on a lattice, each of area dp^2 (in 2D dp).",
     keys: &[BODY, REGION, AT, KINDS[0], KINDS[1], KINDS[2], HISTORY],
-    example: "[[load]]\nregion = { box = { min = [\"L - 1 mm\", 0], max = [\"L + 1 mm\", \"H\"] } }\ntraction = [0, \"-2 kPa\"]\nhistory = [[0, 0], [\"10 ms\", 1]]",
+    example: "[[load]]\nregion = { box = { min = [\"L - dp/4\", 0], max = [\"L + dp/4\", \"H\"] } }\ntraction = [0, \"-2 kPa\"]\nhistory = [[0, 0], [\"10 ms\", 1]]",
 };

@@ -45,7 +45,7 @@ fn momentum(load: &str) -> ([f64; 2], f64, Value) {
     ([at(0), at(1)], summary["end_time"].as_f64().expect("a number"), summary)
 }
 
-const RIGHT: &str = "{ box = { min = [\"1.95 cm\", -1], max = [\"2.05 cm\", 1] } }";
+const RIGHT: &str = "{ box = { min = [\"1.97 cm\", -1], max = [\"2.03 cm\", 1] } }";
 const EVERYWHERE: &str = "{ box = { min = [-1, -1], max = [1, 1] } }";
 
 /// The impulse of a constant load is force times time, whatever the body does meanwhile: 200 particles and some 100 steps of rounding.
@@ -91,8 +91,8 @@ fn histories_from_lists_and_files() {
     assert!((x / (5.0 * (t - 0.5e-4)) - 1.0).abs() < 0.02, "{x} at {t}");
 }
 
-/// A pressure all around a free body: no impulse, and in equilibrium J follows from K/2 (J^2 - 1) = -p J for a body that keeps its shape;
-/// in plane strain the third axis does not move, and the deviator joins in: solved below.
+/// A pressure all around a free body: no impulse, and in equilibrium a stress that can be written down. Tolerance: the unbalanced forces of
+/// a thousandth.
 #[test]
 fn a_pressure_all_around_compresses_evenly() {
     let load = format!("[[load]]\nregion = {EVERYWHERE}\npressure = \"1e7*t\"");
@@ -126,7 +126,7 @@ fn a_pressure_all_around_compresses_evenly() {
         [(last("right", 1) - last("left", 1)) / 0.006, (last("high", 2) - last("low", 2)) / 0.004];
     let expected = evenly_pressed(17e6, 0.45, 1e7);
     for found in stretches {
-        assert!((found / expected - 1.0).abs() < 2e-3, "{stretches:?} for {expected}");
+        assert!((found / expected - 1.0).abs() < 1e-3, "{stretches:?} for {expected}");
     }
     let convergence =
         std::fs::read_to_string(folder.path().join("out/block/convergence.csv")).expect("the table");
