@@ -8,6 +8,8 @@ use std::process::{Command, Stdio};
 const BENCHMARKS: &[&str] = &[
     "tl-plate",
     "tl-punch",
+    "tl-pull-2d",
+    "tl-pull-3d",
     "tl-bending-column",
     "tl-twisting-column",
     "tl-stent",
