@@ -70,14 +70,7 @@ where
                 wave_speed: if step == StepRule::Paper { WaveSpeed::Paper } else { WaveSpeed::Stretch },
                 bulk_speed: all[index].sound_speed(),
             };
-            let form = match scheme.formulation {
-                Formulation::TlNested => TotalForm::Nested,
-                Formulation::TlGanzenmueller => TotalForm::Ganzenmueller(alpha),
-                _ => TotalForm::HourglassFree(match calibration {
-                    Calibration::Paper => simulation::Calibration::Paper,
-                    Calibration::Lattice => simulation::Calibration::Lattice,
-                }),
-            };
+            let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
             total_body(points, (form, law), options, numbers).ok_or_else(|| {
                 let message = format!(
@@ -110,6 +103,16 @@ where
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
+    }
+}
+
+/// A total Lagrangian formulation with its numbers.
+fn total_form(formulation: Formulation, calibration: Calibration, alpha: f64) -> TotalForm {
+    match (formulation, calibration) {
+        (Formulation::TlNested, _) => TotalForm::Nested,
+        (Formulation::TlGanzenmueller, _) => TotalForm::Ganzenmueller(alpha),
+        (_, Calibration::Lattice) => TotalForm::HourglassFree(simulation::Calibration::Lattice),
+        (_, Calibration::Paper) => TotalForm::HourglassFree(simulation::Calibration::Paper),
     }
 }
 
