@@ -5,7 +5,7 @@ mod pair;
 mod sweep;
 
 pub use pair::{ALL_WEIGHTS, Pair};
-pub use sweep::PairSweep;
+pub use sweep::{PairSweep, Two};
 
 use crate::field::{Of, Record};
 use crate::math::Real;
