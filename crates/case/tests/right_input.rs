@@ -5,6 +5,11 @@ mod samples;
 use case::*;
 use samples::{COLUMN, PLATE, RINGS, parse, parse_set};
 
+/// Total Lagrangian with this step and the defaults of the rest.
+fn marched(step: StepRule) -> March {
+    March::Total { step, calibration: Calibration::Paper, alpha: 10.0 }
+}
+
 #[test]
 fn rings_are_read_in_si() {
     let case = parse(RINGS).expect("right");
@@ -33,7 +38,7 @@ fn a_short_case_has_the_documented_defaults() {
     assert_eq!((case.title.as_str(), case.plane, case.spacing), ("plate", Some(Plane::Strain), 0.002));
     let scheme = case.bodies[0].scheme;
     assert_eq!((scheme.formulation, scheme.smoothing, scheme.cfl), (Formulation::TlHourglassFree, 1.15, 0.6));
-    assert_eq!(scheme.march, March::Total { step: StepRule::Paper });
+    assert_eq!(scheme.march, marched(StepRule::Paper));
     assert_eq!(case.bodies[0].fill, Fill::Lattice { origin: [0.0; 3] });
     let soft = &case.materials[0];
     assert_eq!((soft.density, soft.elastic.bulk_modulus, soft.elastic.shear_modulus), (1000.0, 3e6, 7e5));
@@ -121,7 +126,7 @@ fn defaults_follow_the_formulation_of_each_body() {
         .replace("step = \"paper\"\n", "")
         .replace("end = \"12 ms\"", "end = \"12 ms\"\nstep = \"paper\"");
     let case = parse(&mixed).expect("right");
-    assert_eq!(case.bodies[0].scheme.march, March::Total { step: StepRule::Paper });
+    assert_eq!(case.bodies[0].scheme.march, marched(StepRule::Paper));
     assert_eq!((case.bodies[0].scheme.smoothing, case.bodies[1].scheme.smoothing), (1.15, 1.3));
 }
 
@@ -132,7 +137,7 @@ fn keys_of_the_other_family_stay_legal_when_the_command_line_chooses_the_formula
         formulation: Some("tl-hourglass-free".into()),
     };
     let case = Case::parse("case.toml", RINGS, &total).expect("right");
-    assert_eq!(case.bodies[1].scheme.march, March::Total { step: StepRule::Stretch });
+    assert_eq!(case.bodies[1].scheme.march, marched(StepRule::Stretch));
     // The text as run repeats the run without the command line.
     let again = parse(case.case_text_as_run()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again.bodies[0].scheme, case.bodies[0].scheme);
@@ -149,6 +154,13 @@ fn keys_of_the_other_family_stay_legal_when_the_command_line_chooses_the_formula
 
 #[test]
 fn doubtful_cases_are_warned_about() {
+    let tuned = parse(&PLATE.replacen(
+        "dimension = 2",
+        "dimension = 2\nformulation = \"tl-ganzenmueller\"\nalpha = 25",
+        1,
+    ));
+    let told = tuned.expect("right").render_warnings(false);
+    assert!(told.contains("a number to be tuned") && told.contains("alpha = 25"), "{told}");
     let text = RINGS.replace("plane = \"papers\"\n", "").replace("nu = 0.4", "nu = 0.3");
     let case = parse(&text).expect("right");
     assert_eq!(case.warnings.len(), 2);

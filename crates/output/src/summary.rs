@@ -183,6 +183,27 @@ impl Measured {
     }
 }
 
+/// How a quasi-static run came to rest.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settled {
+    /// Increments of the case.
+    pub increments: u32,
+    /// Those that came to rest.
+    pub converged: u32,
+    /// What counted as rest.
+    #[serde(deserialize_with = "nullable::number")]
+    pub tolerance: f64,
+    /// Largest share of unbalanced forces at the end of an increment.
+    #[serde(deserialize_with = "nullable::number")]
+    pub worst_force: f64,
+    /// Largest root of kinetic over elastic energy at the end of an increment.
+    #[serde(deserialize_with = "nullable::number")]
+    pub worst_motion: f64,
+    /// (time, steps, share of unbalanced forces) of each increment.
+    pub history: Vec<[f64; 3]>,
+}
+
 /// Why a run did not reach its end.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -235,6 +256,9 @@ pub struct Summary {
     pub momentum: Momentum,
     /// How orderly the particles stayed.
     pub disorder: Disorder,
+    /// How a quasi-static run came to rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quasi_static: Option<Settled>,
     /// Results that the case asked for, by name.
     pub measured: BTreeMap<String, Measured>,
     /// What the user should know although the run went on.

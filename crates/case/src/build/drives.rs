@@ -155,6 +155,11 @@ impl Driven {
         grips
     }
 
+    /// Particles whose body force is set in every step.
+    pub fn pulled(&self) -> std::collections::HashSet<(usize, usize)> {
+        self.forces.iter().map(|&((g, i, _), _)| (g, i)).collect()
+    }
+
     /// The drives.
     pub fn drives(self) -> Vec<Box<dyn Drive>> {
         let mut drives: Vec<Box<dyn Drive>> = Vec::new();

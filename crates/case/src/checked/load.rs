@@ -145,7 +145,7 @@ impl LoadReader<'_, '_> {
         Some(Initial { velocity: velocity?, body: body?, region: region?, place: section.place })
     }
 
-    fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
+    pub(super) fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
         section.get("body").map(|node| find(node, "body", self.bodies)).transpose()
     }
 

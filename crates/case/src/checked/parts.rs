@@ -3,6 +3,7 @@
 use super::body::{Body, BodyReader};
 use super::choices::{Formulation, Plane};
 use super::compatible;
+use super::force::Load;
 use super::load::{Boundary, Gravity, Initial, LoadReader};
 use super::material::{self, Material};
 use super::measure::{Measure, MeasureReader};
@@ -26,6 +27,7 @@ pub(super) struct Parts {
     pub boundaries: Vec<Boundary>,
     pub initial: Vec<Initial>,
     pub gravity: Vec<Gravity>,
+    pub loads: Vec<Load>,
     pub probes: Vec<Probe>,
     pub measures: Vec<Measure>,
 }
@@ -57,6 +59,8 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let boundaries = boundaries.iter().filter_map(|s| loads.boundary(s, problems)).collect();
     let gravity = list(root, "gravity", problems);
     let gravity = gravity.iter().filter_map(|s| loads.gravity(s, problems)).collect();
+    let forces = list(root, "load", problems);
+    let forces = forces.iter().filter_map(|s| loads.load(s, problems)).collect();
     let initial = list(root, "initial", problems);
     let initial = initial.iter().filter_map(|s| loads.initial(s, problems)).collect();
     let (probes, measures) = records(root, &mut shapes, (&body_names, &held), problems);
@@ -68,6 +72,7 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
         boundaries,
         initial,
         gravity,
+        loads: forces,
         probes,
         measures,
     }

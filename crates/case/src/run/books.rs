@@ -1,11 +1,12 @@
 //! Closing the books: `summary.json`.
 
+use super::convergence::Convergence;
 use super::diagnosis::Evidence;
 use super::error::RunError;
 use super::measures;
 use super::writer::Writer;
 use crate::Case;
-use output::summary::{Failure, Status};
+use output::summary::{Failure, Settled, Status};
 use output::{ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
@@ -29,6 +30,8 @@ pub struct Books<'a> {
     pub start: Option<Totals>,
     /// Wall time, s.
     pub wall: f64,
+    /// What became of the increments of a quasi-static run.
+    pub convergence: Option<Convergence>,
 }
 
 impl Books<'_> {
@@ -36,9 +39,10 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If the summary cannot be written.
-    pub fn done(self) -> Result<Summary, RunError> {
+    pub fn done(mut self) -> Result<Summary, RunError> {
         let results = self.results;
-        let summary = Summary { status: Status::Done, ..self.summary() };
+        let quasi_static = self.settle()?;
+        let summary = Summary { status: Status::Done, quasi_static, ..self.summary() };
         summary.write(results)?;
         Ok(summary)
     }
@@ -47,13 +51,22 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If diagnosis or summary cannot be written.
-    pub fn diverged(self, diverged: Diverged) -> Result<RunError, RunError> {
+    pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
+        let quasi_static = self.settle()?;
         let Self { case, across, simulation, writer, .. } = &self;
         Evidence { case, across, simulation, writer, diverged: &diverged }.write(results)?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
-        failed(summary, &diverged).write(results)?;
+        Summary { quasi_static, ..failed(summary, &diverged) }.write(results)?;
         Ok(RunError::Diverged { diverged: Box::new(diverged), results: results.path().to_path_buf() })
+    }
+
+    /// What the summary says of increments; a warning goes to the others.
+    fn settle(&mut self) -> Result<Option<Settled>, RunError> {
+        let Some(convergence) = self.convergence.take() else { return Ok(None) };
+        let (settled, warning) = convergence.settled(self.case)?;
+        self.writer.warnings.extend(warning);
+        Ok(Some(settled))
     }
 
     /// The summary of a run whose initial state is not admissible.

@@ -6,6 +6,7 @@ mod cases;
 mod command_line;
 mod diagnosis;
 mod divergence;
+mod loads;
 mod report;
 mod results;
 mod wrong_input;

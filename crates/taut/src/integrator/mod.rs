@@ -3,6 +3,7 @@
 mod diverged;
 mod limits;
 mod outside;
+mod relax;
 mod solver;
 mod total;
 mod updated;
@@ -10,6 +11,7 @@ mod updated;
 pub use diverged::{Cause, Diverged};
 pub use limits::{Bounding, Criterion, Limits};
 pub use outside::{Held, Impulse, cross};
+pub use relax::{Relax, Unrest};
 pub use solver::{Seen, Solver};
 pub use total::{Total, TotalOptions, WaveSpeed};
 pub use updated::{Stepping, Updated, UpdatedOptions};

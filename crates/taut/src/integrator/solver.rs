@@ -1,6 +1,6 @@
 //! What a simulation needs of a body in time.
 
-use super::{Bounding, Diverged, Held, Impulse};
+use super::{Bounding, Diverged, Held, Impulse, Relax};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::pass::Now;
@@ -84,6 +84,11 @@ pub trait Solver: Send + Sync {
     fn holding(&self, held: &mut Held, dt: f64) -> Impulse;
     /// What the body forces on these particles, by id, gave in it.
     fn pulling(&self, ids: &[u32], dt: f64) -> Impulse;
+
+    /// The same as something that can be brought to rest, if it can.
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        None
+    }
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];

@@ -3,12 +3,13 @@
 use super::diverged::{Check, culprit, not_finite};
 use super::limits::largest;
 use super::outside::{self, Midway};
+use super::relax::{self, Exchange, Relax, Unrest};
 use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::pass::Now;
-use crate::run::{Among, Relist, Run};
+use crate::run::{Among, Relist, Run, Sweeper};
 
 /// Which wave speed the time step uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -45,12 +46,28 @@ pub struct Total<const D: usize, F, R> {
     options: TotalOptions,
     limits: Limits,
     ahead: f64,
+    /// Squared wave speed at rest, m^2/s^2.
+    at_rest: f64,
+    /// Squared wave speed from which on particles are heavier; infinite for never.
+    heavier_from: f64,
+    /// Pairs one after the other, once they are wanted.
+    sweeper: Option<Sweeper>,
 }
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
     /// A body whose particles carry the fields of `F` and are set up.
     pub fn new(formulation: F, run: R, options: TotalOptions) -> Self {
-        Self { formulation, run, options, limits: Limits::default(), ahead: 0.0 }
+        let limits = Limits::default();
+        Self {
+            formulation,
+            run,
+            options,
+            limits,
+            ahead: 0.0,
+            at_rest: 0.0,
+            heavier_from: f64::INFINITY,
+            sweeper: None,
+        }
     }
 
     /// The run, to look at.
@@ -97,6 +114,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
 
     fn wave_speed(&self) -> f64 {
         match self.options.wave_speed {
+            WaveSpeed::Stretch if self.heavier_from.is_finite() => self.at_rest.sqrt(),
             WaveSpeed::Stretch => self.limits.wave_speed,
             WaveSpeed::Paper => self.options.bulk_speed,
         }
@@ -156,7 +174,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         }
         self.formulation.relisted(&mut self.run);
         self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 0.0 });
-        self.check()
+        self.check()?;
+        self.at_rest = self.limits.wave_speed * self.limits.wave_speed;
+        Ok(())
     }
 
     fn begin(&mut self, dt: f64) {
@@ -199,6 +219,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {
         self.formulation.accelerate(&mut self.run, now);
+        if self.heavier_from.is_finite() {
+            relax::even_out(&mut self.run, self.heavier_from, now.dt);
+        }
         self.check()
     }
 
@@ -214,6 +237,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn pulling(&self, ids: &[u32], dt: f64) -> Impulse {
         outside::pulling(&self.run, (&self.midway(), dt), ids)
+    }
+
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        Some(self)
     }
 
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {
@@ -238,5 +265,42 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn state(&self, place: usize) -> State {
         self.formulation.state(&self.run, place, self.ahead)
+    }
+}
+
+impl<const D: usize, F: Formulation<D>, R: Run<D>> Relax for Total<D, F, R> {
+    fn exchange(&mut self, viscosity: f64, dt: f64) {
+        // Positions were checked when the body was started.
+        let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.reach()).ok());
+        self.sweeper = sweeper.map(|mut sweeper| {
+            sweeper.sweep(&mut self.run, &Exchange { eta_dt: viscosity * dt });
+            sweeper
+        });
+    }
+
+    fn rest(&mut self) {
+        relax::rest(&mut self.run, self.heavier_from);
+    }
+
+    fn even_out(&mut self) {
+        self.heavier_from = self.at_rest;
+    }
+
+    fn pace(&mut self, factor: f64) {
+        relax::pace(&mut self.run, factor);
+    }
+
+    fn unrest(&mut self) -> Unrest {
+        let p = self.run.particles();
+        let density = p.column(Quantity::Mass, 0)[0] / p.column(Quantity::Volume, 0)[0];
+        relax::unrest(&mut self.run, self.heavier_from, density * self.at_rest)
+    }
+
+    fn extent(&self) -> f64 {
+        relax::extent(&self.run)
+    }
+
+    fn wave_speed(&self) -> f64 {
+        self.at_rest.sqrt()
     }
 }

@@ -2,9 +2,11 @@
 
 mod cpu;
 mod serial;
+mod sweeper;
 
 pub use cpu::{Cpu, Double, InstructionSet, Precision, Single};
 pub use serial::Serial;
+pub use sweeper::Sweeper;
 
 use crate::field::Quantity;
 use crate::kernel::Kernel;

@@ -77,7 +77,7 @@ impl<const D: usize> Run<D> for Serial<D> {
                 // Particles on top of each other have no direction and no force.
                 let e: Vector<f64, D> = x_ab.times(if r > 0.0 { 1.0 / r } else { 0.0 });
                 let w = if r > 0.0 { slope / r } else { 0.0 };
-                self.pairs.push(Pair { grad_w: e.times(slope), w, e });
+                self.pairs.push(Pair { grad_w: e.times(slope), w, e, x: x_ab });
             }
         }
         Ok(())

@@ -4,23 +4,30 @@ mod audit;
 // Unit tests have no use for all combinations of formulation, material, dimension and numbers, which take minutes to compile.
 #[cfg(not(test))]
 mod body;
+mod damping;
 mod guard;
 mod history;
 mod particles;
+mod quasi_static;
 mod snapshot;
 
 pub use audit::{Audit, Grip};
 #[cfg(not(test))]
-pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies};
+pub use body::{
+    Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
+};
+pub use damping::{Damping, Kinetic, Splitting};
 pub use guard::{COLLAPSE, GAIN, Guard};
 pub use history::{History, Step};
 pub use particles::{Point, total, updated};
+pub use quasi_static::{Balance, Increment, Increments, QuasiStatic};
 pub use snapshot::{Snapshot, Totals};
 
 pub use crate::integrator::{Seen, Solver};
 
 use crate::integrator::Diverged;
 use crate::pass::Now;
+use quasi_static::Load;
 
 /// Something outside that acts on the bodies before every step: prescribed motion, body force in time.
 pub trait Drive: Send {
@@ -38,6 +45,7 @@ pub struct Simulation {
     audit: Audit,
     guard: Guard,
     history: History,
+    damping: Option<Box<dyn Damping>>,
     time: f64,
     dt: f64,
     steps: u64,
@@ -58,7 +66,13 @@ impl Simulation {
     #[must_use]
     pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
         let (audit, guard, history) = (Audit::default(), Guard::default(), History::new());
-        Self { solvers, drives, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
+        Self { solvers, drives, damping: None, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
+    }
+
+    /// The same with its motion damped.
+    #[must_use]
+    pub fn damped(self, damping: Option<Box<dyn Damping>>) -> Self {
+        Self { damping, ..self }
     }
 
     /// Names the constraints whose reactions are wanted one by one, before the start.
@@ -106,30 +120,81 @@ impl Simulation {
     /// # Errors
     /// If a body has left its bounds; names particle, field, time and the likely cause.
     pub fn step(&mut self) -> Result<(), Diverged> {
-        let (now, step) = (Now { t: self.time, dt: self.dt }, self.steps + 1);
-        self.halves(now).map_err(|diverged| Diverged { time: now.t + now.dt, step, ..diverged })
+        self.step_with(None, None)
     }
 
-    fn halves(&mut self, now: Now<f64>) -> Result<(), Diverged> {
+    /// One step in which the load has a clock of its own, which is then that of the simulation.
+    fn step_with(&mut self, load: Option<Load>, kinetic: Option<&mut Kinetic>) -> Result<(), Diverged> {
+        let (before, dt) = (self.time, self.dt);
+        self.halves(Now { t: before, dt }, load, kinetic).map_err(|diverged| Diverged {
+            time: load.map_or(before + dt, |_| before),
+            step: self.steps + 1,
+            ..diverged
+        })
+    }
+
+    fn drive(&mut self, now: Now<f64>) {
         for drive in &mut self.drives {
             drive.apply(&mut self.solvers, now);
         }
+    }
+
+    /// Moves the load on by what grips may move in a step of `dt`; what that is on the load's clock, s.
+    fn drive_slowly(&mut self, dt: f64, load: Load) -> f64 {
+        let mut pace = load.most.min(load.left / dt);
+        // A clock that stands still has no differences: they are taken over a moment of the load and multiplied by nothing.
+        let moment = |pace: f64| if pace > 0.0 { pace * dt } else { 1e-9 * self.time.max(dt) };
+        let now = Now { t: self.time, dt: moment(pace) };
+        self.drive(now);
+        let mut bodies = self.solvers.iter_mut().filter_map(|solver| solver.relax());
+        let driven = bodies.by_ref().map(|body| body.unrest().driven).fold(0.0, f64::max);
+        if pace * driven > load.fastest {
+            pace = load.fastest / driven;
+            self.drive(Now { t: self.time, dt: pace * dt });
+        }
+        if driven > 0.0 {
+            self.solvers.iter_mut().filter_map(|solver| solver.relax()).for_each(|body| body.pace(pace));
+        }
+        pace * dt
+    }
+
+    fn halves(
+        &mut self,
+        now: Now<f64>,
+        load: Option<Load>,
+        kinetic: Option<&mut Kinetic>,
+    ) -> Result<(), Diverged> {
+        let passed = match load {
+            None => {
+                self.drive(now);
+                now.dt
+            }
+            Some(load) => self.drive_slowly(now.dt, load),
+        };
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {
             solver.advance(now).map_err(|diverged| diverged.after(first))?;
             self.audit.advanced(index, solver.as_ref(), now.dt);
             first += solver.len() as u32;
         }
+        if let Some(damping) = &mut self.damping {
+            damping.damp(&mut self.solvers, now, self.steps);
+        }
+        if let Some(kinetic) = kinetic {
+            kinetic.damp(&mut self.solvers, now, self.steps);
+        }
         let (at_bound, next) = self.stable_step();
         self.guard.step(&self.solvers, (at_bound, next))?;
         for solver in &mut self.solvers {
             solver.finish(now, next)?;
         }
-        self.time += now.dt;
+        self.time =
+            load.filter(|load| passed >= load.left).map_or(self.time + passed, |load| self.time + load.left);
         self.steps += 1;
         self.dt = next;
         self.remember((at_bound, next));
-        self.guard.look(self.steps, &self.solvers)
+        // Masses that are scaled, as when loads have a clock of their own, keep another energy.
+        if load.is_some() { Ok(()) } else { self.guard.look(self.steps, &self.solvers) }
     }
 
     /// The bodies.

@@ -104,7 +104,7 @@ fn a_position_that_is_no_number_is_refused_at_the_start() {
 fn an_inverted_particle_is_named() {
     let setup = Setup { cfl: 20.0, ..Setup::new(DP) };
     let rate = 0.8 * setup.moduli.sound_speed() / DP;
-    for form in [Form::HourglassFree, Form::TotalNested] {
+    for form in [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller] {
         let mut points = block([6, 5], DP);
         points.iter_mut().for_each(|p| p.v = Vector([-rate * p.x[0], 0.0]));
         let mut simulation = start(&setup, form, &points).expect("finite at the start");

@@ -93,7 +93,7 @@ fn long_steps(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
 
 fn stretched_beyond_the_step(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     let body = e.case.bodies.get(e.diverged.body)?;
-    let paper = matches!(body.scheme.march, March::Total { step: StepRule::Paper });
+    let paper = matches!(body.scheme.march, March::Total { step: StepRule::Paper, .. });
     if !paper || facts.at_start {
         return None;
     }

@@ -1,10 +1,13 @@
 //! Total Lagrangian formulations: the kernel is evaluated once, in the reference configuration.
 
+mod calibration;
+mod ganzenmueller;
 mod hourglass_free;
 mod motion;
 mod nested;
 mod reference;
 
+pub use ganzenmueller::Ganzenmueller;
 pub use hourglass_free::HourglassFree;
 pub use motion::Stress;
 pub use nested::Nested;
@@ -36,6 +39,17 @@ pub(crate) const FIELDS: &[Quantity] = &[
     Quantity::Dissipated,
     Quantity::ExternalWork,
 ];
+
+/// Fields of a body with an hourglass control: those of every body, and the energy that the control stores.
+pub(crate) const CONTROLLED: [Quantity; FIELDS.len() + 1] = {
+    let mut all = [Quantity::ShearWork; FIELDS.len() + 1];
+    let mut i = 0;
+    while i < FIELDS.len() {
+        all[i] = FIELDS[i];
+        i += 1;
+    }
+    all
+};
 
 /// A solid: a material and its Kelvin-Voigt damper.
 #[derive(Clone, Copy, Debug)]

@@ -200,6 +200,6 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
             let steps = place[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
             x.0[axis] = steps * unit;
         }
-        Pair { grad_w: x.times(w), w, e: x.times(over_r) }
+        Pair { grad_w: x.times(w), w, e: x.times(over_r), x }
     }
 }
