@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::limited::{LONGEST_RESULT, read_bytes};
 use crate::vtp::Encoder;
 use crate::{Frame, OutputError};
 
@@ -119,7 +120,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 
 /// Reads what [`ResultDir::write_json`] wrote.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, OutputError> {
-    let text = fs::read(path).map_err(|cause| OutputError::read(path, cause))?;
+    let text = read_bytes(path, LONGEST_RESULT).map_err(|cause| OutputError::read(path, cause))?;
     serde_json::from_slice(&text).map_err(|cause| OutputError::read(path, cause))
 }
 
