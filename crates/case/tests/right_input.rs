@@ -48,7 +48,7 @@ fn a_short_case_has_the_documented_defaults() {
     assert_eq!(velocity(-0.01), 0.0);
     assert_eq!(velocity(0.1), 2.0 * (std::f64::consts::PI * 0.1 / (2.0 * 0.2)).sin());
     assert_eq!((case.probes[0].body, case.probes[0].interval), (0, 0.0));
-    let calm = Monitor { zigzag: 0.06, bond_min: 0.3, broken: 0.01, stop: false, interval: 0.3 / 50.0 };
+    let calm = Monitor { zigzag: 0.06, bond_min: 0.3, broken: 0.01, stop: false, interval: None };
     assert_eq!(case.monitor, calm);
     let names: Vec<&str> = case.regions.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["block", "strip"]);

@@ -28,7 +28,7 @@ mod time;
 pub use body::{Body, Fill};
 pub use case::Case;
 pub use choices::{Axis, Family, Formulation, Kernel, Plane, StepRule, Stepping};
-pub(crate) use defaults::cfl as default_cfl;
+pub(crate) use defaults::{LOOK_STEPS, cfl as default_cfl};
 pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
 pub use load::{Boundary, Constraint, Gravity, Initial};

@@ -27,8 +27,8 @@ pub struct Monitor {
     pub broken: f64,
     /// Whether it ends there.
     pub stop: bool,
-    /// Time between two measurements, s.
-    pub interval: f64,
+    /// Time between two measurements, s; `None` for what costs less than a hundredth of the run.
+    pub interval: Option<f64>,
 }
 
 /// Both tables. (The keys `cfl` and `step` belong to the schemes.)
@@ -39,7 +39,7 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Opti
         bond_min: defaults::BOND_MIN,
         broken: defaults::BROKEN,
         stop: false,
-        interval: time.output,
+        interval: None,
     };
     let Some(node) = root.get("monitor") else { return Some((time, monitor)) };
     let section = problems.keep(Section::of(node, "[monitor]"))?;
@@ -52,7 +52,7 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Opti
     threshold(&monitor_keys::ZIGZAG, &mut monitor.zigzag);
     threshold(&monitor_keys::BOND_MIN, &mut monitor.bond_min);
     threshold(&monitor_keys::BROKEN, &mut monitor.broken);
-    threshold(&monitor_keys::INTERVAL, &mut monitor.interval);
+    monitor.interval = problems.keep(scope.get(&section, &monitor_keys::INTERVAL)).flatten();
     if let Some(node) = section.get(monitor_keys::STOP.name) {
         monitor.stop = problems.keep(flag(node, &monitor_keys::STOP)).unwrap_or_default();
     }

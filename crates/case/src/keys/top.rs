@@ -231,8 +231,8 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output"),
-        "Time between two measurements of disorder and energies.",
+        Need::Default("the longer of [time] output and 600 time steps"),
+        "Time between two measurements of disorder. The default costs less than 1 % of a run; energies and momenta are taken down with every frame as well.",
     );
     pub(crate) const TABLE: Table = Table {
         header: "[monitor]",

@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_threshold_is_told_once() {
-        let monitor = Monitor { zigzag: 0.1, bond_min: 0.5, broken: 0.01, stop: false, interval: 1.0 };
+        let monitor = Monitor { zigzag: 0.1, bond_min: 0.5, broken: 0.01, stop: false, interval: None };
         let calm = Disorder {
             zigzag_rms: 0.05,
             zigzag_99: 0.1,

@@ -4,6 +4,7 @@ use super::reactions::Meter;
 use super::sheet::{Outbox, Sample, WriterGone};
 use crate::Case;
 use crate::build::ProbePoint;
+use crate::checked::LOOK_STEPS;
 use taut::simulation::{Simulation, Totals};
 
 /// The run's side of the books.
@@ -13,6 +14,8 @@ pub struct Recorder<'a> {
     /// What each probe of a boundary, and each boundary for the looks, has seen.
     meters: [Vec<Meter>; 2],
     outbox: Outbox,
+    /// Time between two measurements of disorder, s.
+    looks: f64,
     due: Due,
     /// Energies and momenta at the start, once it has started.
     pub start: Option<Totals>,
@@ -32,7 +35,7 @@ impl<'a> Recorder<'a> {
     pub fn new(case: &'a Case, points: Vec<ProbePoint>, outbox: Outbox) -> Self {
         let due = Due { probes: vec![0.0; points.len()], ..Due::default() };
         let meters = [points.len(), case.boundaries.len()].map(|n| vec![Meter::default(); n]);
-        Self { case, points, meters, outbox, due, start: None }
+        Self { case, points, meters, outbox, looks: case.time.end, due, start: None }
     }
 
     /// Notes the state before the first step.
@@ -41,6 +44,8 @@ impl<'a> Recorder<'a> {
     /// If the writer has stopped.
     pub fn begin(&mut self, simulation: &Simulation) -> Result<(), WriterGone> {
         self.start = Some(simulation.totals());
+        let seldom = self.case.time.output.max(LOOK_STEPS * simulation.dt());
+        self.looks = self.case.monitor.interval.unwrap_or(seldom);
         self.after_step(simulation)
     }
 
@@ -65,7 +70,7 @@ impl<'a> Recorder<'a> {
         }
         let (frame, look) = (time >= self.due.frame, time >= self.due.disorder);
         if look {
-            self.due.disorder = later(self.due.disorder, self.case.monitor.interval, time);
+            self.due.disorder = later(self.due.disorder, self.looks, time);
         }
         if frame {
             self.due.frame = later(self.due.frame, self.case.time.output, time);
@@ -80,10 +85,8 @@ impl<'a> Recorder<'a> {
         let sheet = &mut self.outbox.sheet;
         sheet.totals = simulation.snapshot(&mut sheet.snapshot);
         (sheet.step, sheet.look, sheet.frame) = (simulation.steps(), look, frame);
-        if look {
-            let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
-            sheet.reactions.extend(means);
-        }
+        let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
+        sheet.reactions.extend(means);
         if frame {
             self.due.framed = Some(simulation.time());
         }

@@ -135,6 +135,9 @@ impl<'a> Writer<'a> {
 
     /// What is due of the disorder and, if one is due, a frame with the bytes of its file.
     fn digest(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<Option<(Frame, Vec<u8>)>, RunError> {
+        if sheet.look || sheet.frame {
+            self.audit.look(sheet)?;
+        }
         if sheet.look {
             self.look(sheet, watcher)?;
         }
@@ -149,7 +152,6 @@ impl<'a> Writer<'a> {
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let time = sheet.snapshot.time;
-        self.audit.look(sheet)?;
         let Observed { disorder, gap } = self.watch.measure(&sheet.snapshot, self.contact.is_awaited())?;
         self.contact.look(time, gap);
         let monitor = &self.case.monitor;
