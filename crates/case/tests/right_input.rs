@@ -59,7 +59,7 @@ fn a_short_case_has_the_documented_defaults() {
         broken: 0.01,
         stop: false,
         interval: 0.3 / 50.0,
-        apart: (500, 0.3 / 10.0),
+        apart: (600, 0.3 / 10.0),
     };
     assert_eq!(case.monitor, calm);
     let names: Vec<&str> = case.regions.iter().map(|(name, _)| name.as_str()).collect();

@@ -56,7 +56,7 @@ pub struct Energy {
     /// The largest |residual| of all samples, over the largest energy that was put in: at the start and from outside.
     #[serde(default, deserialize_with = "nullable::number")]
     pub worst_residual: f64,
-    /// Samples, one whenever the disorder is measured: (time, kinetic, strain, kinetic + strain).
+    /// Samples, one with every frame and every measurement of disorder: (time, kinetic, strain, kinetic + strain).
     #[serde(default, deserialize_with = "nullable::energies")]
     pub history: Vec<[f64; 4]>,
 }

@@ -249,7 +249,7 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output; disorder 500 steps or end/10 apart"),
+        Need::Default("as [time] output; disorder 600 steps or end/10 apart"),
         "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {

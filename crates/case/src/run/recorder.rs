@@ -96,10 +96,8 @@ impl<'a> Recorder<'a> {
         let sheet = &mut self.outbox.sheet;
         sheet.totals = simulation.snapshot(&mut sheet.snapshot);
         (sheet.step, sheet.look, sheet.measure, sheet.frame) = (step, look, measure, frame);
-        if look {
-            let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
-            sheet.reactions.extend(means);
-        }
+        let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
+        sheet.reactions.extend(means);
         if frame {
             self.due.framed = Some(time);
         }

@@ -40,7 +40,7 @@ pub struct Sheet {
     pub snapshot: Snapshot,
     /// Energies and momenta, likewise.
     pub totals: Totals,
-    /// Mean force and moment of every boundary since the look before, with `look`; none at the first.
+    /// Mean force and moment of every boundary since the sheet before that had particles on it; none at the first.
     pub reactions: Vec<Impulse>,
     /// Steps taken.
     pub step: u64,

@@ -138,6 +138,9 @@ impl<'a> Writer<'a> {
 
     /// What is due of the disorder and, if one is due, a frame with the bytes of its file.
     fn digest(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<Option<(Frame, Vec<u8>)>, RunError> {
+        if sheet.look || sheet.frame {
+            self.audit.look(sheet)?;
+        }
         if sheet.look {
             self.look(sheet, watcher)?;
         }
@@ -152,7 +155,6 @@ impl<'a> Writer<'a> {
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let time = sheet.snapshot.time;
-        self.audit.look(sheet)?;
         if self.contact.is_awaited() {
             self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
         }

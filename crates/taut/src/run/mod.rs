@@ -46,7 +46,16 @@ pub enum Numbers<'a> {
     Single(&'a [f32]),
 }
 
-impl Numbers<'_> {
+impl<'a> Numbers<'a> {
+    /// The numbers, if they are in double precision.
+    #[must_use]
+    pub fn double(self) -> Option<&'a [f64]> {
+        match self {
+            Self::Double(numbers) => Some(numbers),
+            Self::Single(_) => None,
+        }
+    }
+
     /// The number of one particle.
     #[inline(always)]
     #[must_use]
