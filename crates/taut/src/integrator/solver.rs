@@ -105,6 +105,7 @@ pub trait Solver: Send {
     /// Shows every particle, place by place: one virtual call for all of them.
     fn show(&self, to: &mut dyn FnMut(&Seen)) {
         for (place, &id) in self.ids().iter().enumerate() {
+            let state = self.state(place);
             to(&Seen {
                 id,
                 body: self.scalar(Quantity::Body, place) as u32,
@@ -112,9 +113,9 @@ pub trait Solver: Send {
                 reference: self.read(Quantity::ReferencePosition, place),
                 displacement: self.read(Quantity::Displacement, place),
                 velocity: self.read(Quantity::Velocity, place),
-                dissipated: self.scalar(Quantity::Dissipated, place),
+                dissipated: self.scalar(Quantity::Dissipated, place) - state.booked_ahead,
                 external_work: self.scalar(Quantity::ExternalWork, place),
-                state: self.state(place),
+                state,
             });
         }
     }
