@@ -112,6 +112,7 @@ pub trait Solver: Send + Sync {
     fn show(&self, ids: Range<usize>, to: &mut dyn FnMut(&Seen)) {
         for id in ids {
             let place = self.stored(id);
+            let state = self.state(place);
             to(&Seen {
                 id: id as u32,
                 body: self.scalar(Quantity::Body, place) as u32,
@@ -119,9 +120,9 @@ pub trait Solver: Send + Sync {
                 reference: self.read(Quantity::ReferencePosition, place),
                 displacement: self.read(Quantity::Displacement, place),
                 velocity: self.read(Quantity::Velocity, place),
-                dissipated: self.scalar(Quantity::Dissipated, place),
+                dissipated: self.scalar(Quantity::Dissipated, place) - state.booked_ahead,
                 external_work: self.scalar(Quantity::ExternalWork, place),
-                state: self.state(place),
+                state,
             });
         }
     }
