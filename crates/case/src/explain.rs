@@ -1,8 +1,8 @@
 //! A case in plain words.
 
 use crate::{
-    Boundary, Case, Constraint, Family, Feature, FieldExpression, Fill, Kernel, March, MeasureKind, Model,
-    Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, VectorField,
+    Boundary, Case, Constraint, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind, March,
+    MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, VectorField,
 };
 use std::fmt::Write as _;
 
@@ -27,7 +27,8 @@ pub fn explain(case: &Case) -> String {
         let on = on(case, i.body, Some(&i.region));
         format!("{on} starts at {} m/s", vector(&i.velocity, case.dimension))
     });
-    paragraph(&mut text, "What holds, moves and pulls", held.chain(started).chain(pulled));
+    let loaded = case.loads.iter().map(|l| load(case, l));
+    paragraph(&mut text, "What holds, moves and pulls", held.chain(started).chain(pulled).chain(loaded));
     paragraph(&mut text, "Time", times(case).into_iter());
     paragraph(&mut text, "Recorded", recorded(case).into_iter());
     text
@@ -93,6 +94,25 @@ fn body(case: &Case, index: usize) -> String {
         scheme.formulation.name(),
         scheme.smoothing
     )
+}
+
+/// A load in words.
+fn load(case: &Case, load: &Load) -> String {
+    let history = if load.history.is_some() { ", times a factor over time" } else { "" };
+    let (on, d) = match &load.spot {
+        Spot::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
+        Spot::Region(region) => (on(case, load.body, Some(region)), case.dimension),
+        Spot::Boundary(_) => (on(case, load.body, None), case.dimension),
+    };
+    match &load.kind {
+        LoadKind::Force(field) => format!("{on} feels a total force of {} N{history}", vector(field, d)),
+        LoadKind::Traction(field) => {
+            format!("the surface of {on} feels {} Pa of its undeformed area{history}", vector(field, d))
+        }
+        LoadKind::Pressure(field) => {
+            format!("a pressure of {} Pa follows the surface of {on}{history}", field.text())
+        }
+    }
 }
 
 /// Lengths of the box around a shape.
@@ -165,6 +185,23 @@ fn times(case: &Case) -> Vec<String> {
         time(case.time.end),
         time(case.time.output)
     )];
+    if let Some(s) = case.quasi_static {
+        lines = vec![format!(
+            "loads grow in {} increments up to t = {}, each held until unbalanced forces are below {} of the stress; frames are written for equilibria, every {}",
+            s.increments,
+            time(case.time.end),
+            s.tolerance,
+            time(case.time.output)
+        )];
+    }
+    if let Some(d) = case.damping {
+        lines.push(format!(
+            "all motion is damped, in {} of the steps chosen at random (seed {})",
+            d.probability, d.seed
+        ));
+    } else if case.quasi_static.is_some() {
+        lines.push("motion is stopped whenever the kinetic energy has passed a maximum, and stretched particles are made heavier".into());
+    }
     let updated = case.bodies.iter().find_map(|body| match body.scheme.march {
         March::Updated { stepping, .. } => Some(stepping),
         March::Total { .. } => None,
@@ -182,10 +219,11 @@ fn times(case: &Case) -> Vec<String> {
 fn recorded(case: &Case) -> Vec<String> {
     let probes = case.probes.iter().map(|p| probe(case, p));
     let measures = case.measures.iter().map(|m| format!("{}: {}", m.name, measure(case, &m.kind)));
-    let watch = case
-        .monitor
-        .zigzag
-        .map(|limit| format!("a warning if the zigzag of the particles exceeds {limit} spacings"));
+    let Monitor { zigzag, bond_min, broken, stop, .. } = case.monitor;
+    let what = if stop { "an end" } else { "a warning" };
+    let watch = std::iter::once(format!(
+        "{what} if the zigzag of the particles exceeds {zigzag} spacings, neighbours come closer than {bond_min} spacings, or more than {broken} of the bonds break"
+    ));
     probes.chain(measures).chain(watch).collect()
 }
 
@@ -194,12 +232,15 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Quantity::Displacement => "displacement",
         Quantity::Position => "position",
         Quantity::Velocity => "velocity",
+        Quantity::Reaction => "force",
+        Quantity::Moment => "moment about the origin",
     };
     let spot = match &probe.spot {
         Spot::Point(at) => {
             format!("the point {:?} m of {}", &at[..case.dimension], case.bodies[probe.body].name)
         }
         Spot::Region(region) => format!("the mean over {}", on(case, Some(probe.body), Some(region))),
+        Spot::Boundary(index) => format!("boundary {} on what it holds", case.boundaries[*index].name),
     };
     let often =
         if probe.interval == 0.0 { "every step".into() } else { format!("every {}", time(probe.interval)) };

@@ -10,6 +10,9 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../cases/tl-plate.toml")),
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
     ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
+    ("tl-pull-2d", include_str!("../../../cases/tl-pull-2d.toml")),
+    ("tl-pull-3d", include_str!("../../../cases/tl-pull-3d.toml")),
+    ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
 ];
@@ -33,8 +36,6 @@ const CURVES: &[(&str, &str)] = &[
 /// Benchmarks of the papers that are not there yet.
 const LATER: &[&str] = &[
     "tl-punch",
-    "tl-pull-2d",
-    "tl-pull-3d",
     "tl-stent",
     "ul-plate-3d",
     "ul-hollow-balls",

@@ -3,7 +3,7 @@
 use crate::Failure;
 use case::Case;
 use output::{Frame, OutputError, Reference, Table};
-use report::{Picture, View, Window, picture, plot_probe, write_png};
+use report::{Picture, View, Window, picture, plot_audit, plot_probe, write_png};
 use std::path::{Path, PathBuf};
 
 /// What was made, and what could not be.
@@ -40,8 +40,14 @@ pub fn draw(case: &Case, frames: &[Frame], results: &Path) -> Result<(), Failure
     }
 }
 
-/// Plots every table in the folder `probes` of the results into `out`, with its reference curves.
+/// Plots the audit and every table in the folder `probes` of the results into `out`, these with their reference curves.
 pub fn plots(title: &str, results: &Path, out: &Path, drawn: &mut Drawn) {
+    let mut note = |made: Result<(), String>, path: PathBuf| match made {
+        Ok(()) => drawn.files.push(path),
+        Err(problem) => drawn.problems.push(problem),
+    };
+    let audit = out.join("audit.svg");
+    note(books(title, &results.join("audit.csv"), &audit), audit);
     let mut names: Vec<String> = Vec::new();
     // Without probes there is no such folder.
     for entry in std::fs::read_dir(results.join("probes")).into_iter().flatten().flatten() {
@@ -52,20 +58,21 @@ pub fn plots(title: &str, results: &Path, out: &Path, drawn: &mut Drawn) {
     for name in names {
         let reference = results.join("reference").join(format!("{name}.csv"));
         let path = out.join(format!("{name}.svg"));
-        match plot(
-            &format!("{title}: {name}"),
-            &results.join("probes").join(format!("{name}.csv")),
-            &reference,
-            &path,
-        ) {
-            Ok(()) => drawn.files.push(path),
-            Err(problem) => drawn.problems.push(problem),
-        }
+        let table = results.join("probes").join(format!("{name}.csv"));
+        note(plot(&format!("{title}: {name}"), &table, &reference, &path), path);
     }
 }
 
+fn told(error: OutputError) -> String {
+    format!("{error}\nhint: {}", error.hint())
+}
+
+fn books(title: &str, table: &Path, path: &Path) -> Result<(), String> {
+    let table = Table::read(table).map_err(told)?;
+    plot_audit(title, &table, path).map_err(|error| format!("{error}\nhint: {}", error.hint()))
+}
+
 fn plot(title: &str, table: &Path, reference: &Path, path: &Path) -> Result<(), String> {
-    let told = |error: OutputError| format!("{error}\nhint: {}", error.hint());
     let table = Table::read(table).map_err(told)?;
     let reference = reference.is_file().then(|| Reference::read(reference).map_err(told)).transpose()?;
     plot_probe(title, &table, reference.as_ref(), path)

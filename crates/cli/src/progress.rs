@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use output::{Frame, FrameFile};
 use std::io::IsTerminal;
 use std::path::PathBuf;
+use taut::simulation::Increment;
 
 /// Where progress goes.
 enum Shown {
@@ -104,6 +105,14 @@ impl Observer for Watcher {
                 Err(error) => self.line(&format!("warning: {error}")),
             }
         }
+    }
+
+    fn settled(&mut self, i: &Increment, of: u32) {
+        let how = if i.converged { "at rest" } else { "NOT at rest" };
+        self.line(&format!(
+            "increment {}/{of}  t = {:.4e} s  {how} after {} steps, unbalanced {:.1e}, motion {:.1e}",
+            i.number, i.time, i.steps, i.balance.force, i.balance.motion
+        ));
     }
 
     fn framed(&mut self, frame: Frame) {

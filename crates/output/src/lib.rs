@@ -44,7 +44,7 @@ pub use error::OutputError;
 pub use frame::{Array, Frame, Values};
 pub use listing::{Listed, Listing};
 pub use manifest::Manifest;
-pub use probe::{Column, Mark, ProbeTable, Table};
+pub use probe::{Column, Mark, ProbeTable, Table, table_beside, table_path};
 pub use reference::Reference;
 pub use series::Series;
 pub use summary::Summary;

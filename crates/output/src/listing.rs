@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::directory::checked;
+use crate::limited::{LONGEST_RESULT, read_text};
 use crate::{FrameFile, OutputError};
 
 /// A frame of a list: its time and its file.
@@ -73,7 +74,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
 /// What `particles.pvd` lists, whether it is there or not.
 fn listed(folder: &Path) -> Result<Vec<Listed>, OutputError> {
     let path = folder.join("particles.pvd");
-    let text = std::fs::read_to_string(&path).map_err(|cause| OutputError::read(&path, cause))?;
+    let text = read_text(&path, LONGEST_RESULT).map_err(|cause| OutputError::read(&path, cause))?;
     parse(folder, &text).map_err(|problem| OutputError::read(&path, problem))
 }
 

@@ -42,7 +42,22 @@ impl ProbeTable {
     pub fn create(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let folder = results.path().join("probes");
         std::fs::create_dir_all(&folder).map_err(|cause| OutputError::write(&folder, cause))?;
-        let path = table_path(results.path(), checked(name)?);
+        Self::new(table_path(results.path(), checked(name)?), columns)
+    }
+
+    /// The same for a table `NAME.csv` that stands beside the summary.
+    ///
+    /// # Errors
+    /// As [`ProbeTable::create`].
+    pub fn beside_summary(
+        results: &ResultDir,
+        name: &str,
+        columns: &[(&str, &str)],
+    ) -> Result<Self, OutputError> {
+        Self::new(table_beside(results.path(), checked(name)?), columns)
+    }
+
+    fn new(path: PathBuf, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
             Ok(file) => file,
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {
@@ -98,12 +113,11 @@ impl ProbeTable {
         Ok(Mark { bytes: self.bytes, sum: hexadecimal(&self.sum) })
     }
 
-    /// Goes on with the table of a probe from where it was at `mark`: what was written later is dropped. The rows up to there.
+    /// Goes on with a table from where it was at `mark`: what was written later is dropped. The rows up to there.
     ///
     /// # Errors
     /// As [`Table::read_until`], and [`OutputError::Write`].
-    pub fn reopen(results: &ResultDir, name: &str, mark: &Mark) -> Result<(Self, Table), OutputError> {
-        let path = table_path(results.path(), checked(name)?);
+    pub fn reopen(path: PathBuf, mark: &Mark) -> Result<(Self, Table), OutputError> {
         let (table, sum) = until(&path, mark)?;
         let cut = || -> io::Result<File> {
             let mut file = OpenOptions::new().write(true).open(&path)?;
@@ -128,8 +142,14 @@ fn hexadecimal(sum: &Xxh3) -> String {
     format!("{:032x}", sum.digest128())
 }
 
-fn table_path(results: &Path, name: &str) -> PathBuf {
+/// Where the table of a probe stands in the directory `results`.
+pub fn table_path(results: &Path, name: &str) -> PathBuf {
     results.join("probes").join(format!("{name}.csv"))
+}
+
+/// Where a table stands that is beside the summary.
+pub fn table_beside(results: &Path, name: &str) -> PathBuf {
+    results.join(format!("{name}.csv"))
 }
 
 /// The rows of a table up to a mark, and their checksum.
@@ -182,12 +202,12 @@ impl Table {
         Self::parse(&text, 0).map_err(|problem| OutputError::read(path, problem))
     }
 
-    /// Reads the table of the probe `name` in the directory `results` up to a mark.
+    /// Reads a table up to a mark.
     ///
     /// # Errors
-    /// [`OutputError::Read`] if it is not there, or is no longer what it was then; [`OutputError::Name`].
-    pub fn read_until(results: &Path, name: &str, mark: &Mark) -> Result<Self, OutputError> {
-        Ok(until(&table_path(results, checked(name)?), mark)?.0)
+    /// [`OutputError::Read`] if it is not there, or is no longer what it was then.
+    pub fn read_until(path: &Path, mark: &Mark) -> Result<Self, OutputError> {
+        Ok(until(path, mark)?.0)
     }
 
     /// Reads the text of a table that begins after so many lines of its file.
@@ -277,8 +297,8 @@ mod tests {
         drop(table);
         let whole = std::fs::read(&path).unwrap();
         std::fs::write(&path, [&whole[..], b"3.0,4."].concat()).unwrap();
-        assert_eq!(Table::read_until(scratch.path(), "tip", &mark).unwrap().times, [0.0]);
-        let (mut table, before) = ProbeTable::reopen(&results, "tip", &mark).unwrap();
+        assert_eq!(Table::read_until(&path, &mark).unwrap().times, [0.0]);
+        let (mut table, before) = ProbeTable::reopen(path.clone(), &mark).unwrap();
         assert_eq!((before.times, &before.columns[0].values), (vec![0.0], &vec![1.0]));
         for time in [1.0, 2.0] {
             table.push(time, &[0.1 + time]).unwrap();
@@ -287,7 +307,7 @@ mod tests {
         assert_eq!(std::fs::read(&path).unwrap(), whole);
         for other in ["time [s],x [m]\n0.0,2.0\n", "time [s],x [m]\n"] {
             std::fs::write(&path, other).unwrap();
-            let error = ProbeTable::reopen(&results, "tip", &mark).map(|_| ()).unwrap_err();
+            let error = ProbeTable::reopen(path.clone(), &mark).map(|_| ()).unwrap_err();
             assert!(error.to_string().contains("no longer what it was"), "{error}");
             assert_eq!(std::fs::read(&path).unwrap(), other.as_bytes());
         }

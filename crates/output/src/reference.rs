@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::limited::{LONGEST_TEXT, read_text};
 use crate::{OutputError, Table};
 
 /// Curves over time with their source: a comma-separated table as probes have them (`time [s],y [m]`), whose first lines may say
@@ -20,7 +21,7 @@ impl Reference {
     /// # Errors
     /// [`OutputError::Read`] with the line, if it is no such table.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| OutputError::read(path, cause))?;
+        let text = read_text(path, LONGEST_TEXT).map_err(|cause| OutputError::read(path, cause))?;
         Self::parse(&text).map_err(|problem| OutputError::read(path, problem))
     }
 

@@ -5,6 +5,7 @@
 //! no particles), and draw what can be drawn.
 
 mod animation;
+mod audit;
 mod colours;
 mod error;
 mod field;
@@ -21,6 +22,7 @@ mod splat;
 mod view;
 
 pub use animation::write_gif;
+pub use audit::plot_audit;
 pub use error::ReportError;
 pub use field::{components, split_field};
 pub use image::{Image, write_png};

@@ -45,14 +45,16 @@ pub fn plot_probe(
     let mut svg = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        chart((title, reference), table, &curves, &area).map_err(|cause| cause.to_string())
+        chart((title, reference), table, &curves, &area)
+            .and_then(|()| Ok(area.present()?))
+            .map_err(|cause| cause.to_string())
     };
     drawn.map_err(|cause| ReportError::Draw { what: path.display().to_string(), cause })?;
     Ok(output::write_atomically(path, svg.as_bytes())?)
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// A line of the plot.
 struct Curve {
@@ -93,6 +95,12 @@ fn curves<'a>(
         })
     });
     std::iter::once(own).chain(others)
+}
+
+/// One chart of all columns of a table.
+pub(crate) fn chart_of(title: &str, table: &Table, area: &Area) -> Drawn {
+    let curves: Vec<Curve> = table.columns.iter().enumerate().flat_map(|c| curves(c, table, None)).collect();
+    chart((title, None), table, &curves, area)
 }
 
 fn chart(
@@ -148,7 +156,6 @@ fn chart(
             .label_font(("sans-serif", 16))
             .draw()?;
     }
-    area.present()?;
     Ok(())
 }
 

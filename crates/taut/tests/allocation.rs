@@ -101,6 +101,7 @@ fn steps_ask_for_no_memory() {
         assert_eq!(rayon::current_num_threads(), 2);
         total(Form::HourglassFree);
         total(Form::TotalNested);
+        total(Form::Ganzenmueller);
         updated(Setup::new(DP).non_hourglass(2));
         updated(Setup::new(DP).updated_nested());
     });

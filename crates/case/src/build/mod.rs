@@ -5,17 +5,21 @@ mod bodies;
 mod doubts;
 mod drives;
 mod gap;
+mod loads;
 mod observe;
 mod shapes;
 mod solvers;
+mod statics;
+mod surface;
 mod thickness;
 
 pub use afford::{available_memory, reckon};
 pub use observe::{ProbePoint, Watch};
 pub(crate) use shapes::bounds;
+pub(crate) use statics::increments;
 
 use crate::{Case, CaseError};
-use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Damping, Drive, Grip, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -23,6 +27,10 @@ pub struct Built {
     pub solvers: Vec<Box<dyn Solver>>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
+    /// Who is held by each boundary.
+    pub grips: Vec<Grip>,
+    /// What damps all motion.
+    pub damping: Option<Box<dyn Damping>>,
     /// Where each probe reads.
     pub probes: Vec<ProbePoint>,
     /// The measure of disorder.
@@ -64,12 +72,16 @@ where
     let mut groups = bodies::groups::<D>(case)?;
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
+    let loads = loads::loads(case, &mut groups, &driven.pulled())?;
     let solver = |group| solvers::solver(case, group, numbers);
     let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
-    let drives = driven.drives();
+    let grips = driven.grips(case);
+    // Loads add to what the others set.
+    let drives = driven.drives().into_iter().chain(loads).collect();
     let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, &groups)?;
     let across = thickness::across(case, &groups);
     let warnings = doubts::warnings(case, &groups, &across);
-    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings, across })
+    let damping = statics::damping(case, &groups);
+    Ok(Built { solvers, drives, grips, damping, probes, watch, body, numbers, warnings, across })
 }

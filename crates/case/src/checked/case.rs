@@ -8,12 +8,14 @@ use output::limited::{LONGEST_TEXT, read_text};
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
 use super::curves;
+use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
 use super::measure::Measure;
 use super::probe::Probe;
 use super::read;
 use super::shape::ShapeSpec;
+use super::statics::{Damping, Statics};
 use super::time::{Monitor, Time};
 use crate::diagnostic::{CaseError, Diagnostic, render_warnings};
 use crate::source::{Overrides, Place, Sources};
@@ -49,8 +51,14 @@ pub struct Case {
     pub initial: Vec<Initial>,
     /// Body forces.
     pub gravity: Vec<Gravity>,
+    /// Forces on particles and surfaces.
+    pub loads: Vec<Load>,
     /// How long the run is.
     pub time: Time,
+    /// Damping of all motion.
+    pub damping: Option<Damping>,
+    /// Whether equilibria are looked for, and how.
+    pub quasi_static: Option<Statics>,
     /// The watch over disorder.
     pub monitor: Monitor,
     /// Recorded points.

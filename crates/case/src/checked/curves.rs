@@ -29,7 +29,7 @@ pub(super) fn in_folder(folder: &Path, file: &str) -> Result<String, String> {
     if !about.is_file() || about.len() > LARGEST {
         return Err(format!("no ordinary file of at most {} MiB", LARGEST >> 20));
     }
-    std::fs::read_to_string(&path).map_err(|cause| cause.to_string())
+    output::limited::read_text(&path, output::limited::LONGEST_TEXT).map_err(|cause| cause.to_string())
 }
 
 impl Case {

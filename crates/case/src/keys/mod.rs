@@ -1,14 +1,17 @@
 //! The keys of a case file: each stands once, with its kind, unit, default and meaning. What the reader accepts, the
 //! JSON schema for editors and the manual's reference page are all made from these tables.
 
+pub(crate) mod load;
 mod page;
 mod parts;
 mod schema;
 mod shapes;
+mod statics;
 mod top;
 
 pub(crate) use parts::{body, boundary, gravity, initial, measure, probe};
 pub(crate) use shapes::{fill, shape};
+pub(crate) use statics::{damping, quasi_static};
 pub(crate) use top::{case, material, monitor, region, time};
 
 use crate::units::Dimension;
@@ -37,6 +40,8 @@ pub enum Kind {
     NameOf(&'static str),
     /// `true`.
     True,
+    /// `true` or `false`.
+    Flag,
     /// One of these whole numbers.
     OneOf(&'static [i64]),
     /// A whole number from 1 on.
@@ -53,6 +58,10 @@ pub enum Kind {
     Pairs(Dimension),
     /// One expression of the reference position x, y, z per axis.
     Place(Dimension),
+    /// One expression of the reference position x, y, z and the time t.
+    Scalar(Dimension),
+    /// A factor over time: pairs of time and number, or the name of a file of them.
+    History,
     /// One expression of the reference position x, y, z and the time t per axis.
     Field(Dimension),
     /// The same, or "free" for an axis that is left alone.
@@ -99,7 +108,7 @@ impl Kind {
     pub(crate) fn dimension(self) -> Option<Dimension> {
         match self {
             Self::Number(d, _) | Self::Vector(d) | Self::Pair(d) | Self::Pairs(d) => Some(d),
-            Self::Place(d) | Self::Field(d) | Self::FieldOrFree(d) => Some(d),
+            Self::Place(d) | Self::Scalar(d) | Self::Field(d) | Self::FieldOrFree(d) => Some(d),
             _ => None,
         }
     }

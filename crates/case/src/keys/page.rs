@@ -70,6 +70,7 @@ fn value(kind: &Kind) -> String {
         Kind::Name => "name",
         Kind::NameOf(part) => return format!("name of a {part}"),
         Kind::True => "`true`",
+        Kind::Flag => "`true` or `false`",
         Kind::OneOf(numbers) => {
             return numbers.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" or ");
         }
@@ -79,6 +80,8 @@ fn value(kind: &Kind) -> String {
         Kind::Pair(_) => "two numbers",
         Kind::Pairs(_) => "list of points",
         Kind::Place(_) => "expression of x, y, z per axis",
+        Kind::Scalar(_) => "expression of x, y, z, t",
+        Kind::History => "list of [time, factor], or name of a CSV file",
         Kind::Field(_) => "expression of x, y, z, t per axis",
         Kind::FieldOrFree(_) => "expression of x, y, z, t or `\"free\"` per axis",
         Kind::Choice(_) => "word",

@@ -88,9 +88,15 @@ fn kind(kind: &Kind) -> Value {
         Kind::Text => json!({ "type": "string" }),
         Kind::Name | Kind::NameOf(_) => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" }),
         Kind::True => json!({ "const": true }),
+        Kind::Flag => json!({ "type": "boolean" }),
         Kind::OneOf(numbers) => json!({ "enum": numbers }),
         Kind::Count => json!({ "type": "integer", "minimum": 1 }),
         Kind::Number(_, range) => bounded(range),
+        Kind::Scalar(_) => bounded(Range::Any),
+        Kind::History => {
+            let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
+            json!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": pair, "minItems": 1 }] })
+        }
         Kind::OfProbe => bounded(Range::Positive),
         Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
             json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 3 })

@@ -1,11 +1,13 @@
 //! Closing the books: `summary.json`.
 
 use super::checkpoint::Schedule;
+use super::convergence::Convergence;
+use super::diagnosis::Evidence;
 use super::error::RunError;
-use super::measures::Evidence;
+use super::measures;
 use super::writer::Writer;
 use crate::Case;
-use output::summary::{Balance, Energy, Failure, Momentum, Status};
+use output::summary::{Failure, Settled, Status};
 use output::{ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
@@ -19,6 +21,8 @@ pub struct Books<'a> {
     pub results: &'a ResultDir,
     /// The simulation, at its end.
     pub simulation: &'a Simulation,
+    /// Particles across the thinnest part of each body.
+    pub across: &'a [usize],
     /// What it computed with.
     pub numbers: Numbers,
     /// What was written.
@@ -29,6 +33,8 @@ pub struct Books<'a> {
     pub schedule: Schedule,
     /// Wall time, s.
     pub wall: f64,
+    /// What became of the increments of a quasi-static run.
+    pub convergence: Option<Convergence>,
 }
 
 impl Books<'_> {
@@ -36,9 +42,10 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If the summary cannot be written.
-    pub fn done(self) -> Result<Summary, RunError> {
+    pub fn done(mut self) -> Result<Summary, RunError> {
         let results = self.results;
-        let summary = Summary { status: Status::Done, ..self.summary() };
+        let quasi_static = self.settle()?;
+        let summary = Summary { status: Status::Done, quasi_static, ..self.summary() };
         summary.write(results)?;
         Ok(summary)
     }
@@ -52,6 +59,9 @@ impl Books<'_> {
         let checkpoint = match self.writer.kept.take() {
             Some(Ok(path)) => Ok(path),
             Some(Err(error)) => Err(format!("{error}\nhint: {}", error.hint())),
+            None if self.case.quasi_static.is_some() => {
+                Err("quasi-static runs cannot go on from one".to_string())
+            }
             None => Err("it had not begun".to_string()),
         };
         let (time, step) = (self.simulation.time(), self.simulation.steps());
@@ -62,12 +72,23 @@ impl Books<'_> {
     /// Closes the books of a run that diverged; hands back the error to report.
     ///
     /// # Errors
-    /// If the summary cannot be written.
-    pub fn diverged(self, diverged: Diverged) -> Result<RunError, RunError> {
+    /// If diagnosis or summary cannot be written.
+    pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
+        let quasi_static = self.settle()?;
+        let Self { case, across, simulation, writer, .. } = &self;
+        Evidence { case, across, simulation, writer, diverged: &diverged }.write(results)?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
-        failed(summary, &diverged).write(results)?;
+        Summary { quasi_static, ..failed(summary, &diverged) }.write(results)?;
         Ok(RunError::Diverged { diverged: Box::new(diverged), results: results.path().to_path_buf() })
+    }
+
+    /// What the summary says of increments; a warning goes to the others.
+    fn settle(&mut self) -> Result<Option<Settled>, RunError> {
+        let Some(convergence) = self.convergence.take() else { return Ok(None) };
+        let (settled, warning) = convergence.settled(self.case)?;
+        self.writer.warnings.extend(warning);
+        Ok(Some(settled))
     }
 
     /// The summary of a run whose initial state is not admissible.
@@ -89,7 +110,7 @@ impl Books<'_> {
         let mut snapshot = Snapshot::default();
         let end = simulation.snapshot(&mut snapshot);
         let start = self.start.unwrap_or_default();
-        let evidence = Evidence {
+        let evidence = measures::Evidence {
             series: &writer.series,
             start,
             end,
@@ -107,11 +128,8 @@ impl Books<'_> {
             checkpoints: self.schedule.made,
             checkpoint_seconds: self.schedule.took.as_secs_f64(),
             particle_steps_per_second: n * steps as f64 / self.wall.max(1e-9),
-            energy: energy(&start, &end, writer.energies.clone()),
-            momentum: Momentum {
-                linear: Balance::new(start.momentum, end.momentum),
-                angular: Balance::new(start.angular_momentum, end.angular_momentum),
-            },
+            energy: writer.audit.energy(&start, &end),
+            momentum: writer.audit.momentum(&start, &end),
             disorder: writer.disorder.summary(),
             measured: evidence.measured(self.case),
             ..self.nothing()
@@ -137,21 +155,6 @@ fn mass(simulation: &Simulation) -> Vec<f64> {
         first += solver.len();
     }
     mass
-}
-
-fn energy(start: &Totals, end: &Totals, history: Vec<[f64; 4]>) -> Energy {
-    let initial = start.kinetic + start.strain;
-    let at_end = end.kinetic + end.strain;
-    Energy {
-        initial,
-        at_end,
-        kinetic: end.kinetic,
-        strain: end.strain,
-        dissipated: end.dissipated,
-        external_work: end.external_work,
-        residual: initial + end.external_work - end.dissipated - at_end,
-        history,
-    }
 }
 
 fn failed(summary: Summary, diverged: &Diverged) -> Summary {

@@ -20,7 +20,7 @@ pub enum RunError {
         cause: OutputError,
     },
     /// The run diverged; what it had is in `results`.
-    #[error("{diverged}\nwhat was written up to then is in {}", results.display())]
+    #[error("{diverged}\nwhat was written up to then is in {}; read diagnosis.md there", results.display())]
     Diverged {
         /// What happened.
         diverged: Box<Diverged>,
@@ -49,6 +49,9 @@ pub enum RunError {
         /// What to do, on a line of its own.
         hint: String,
     },
+    /// A few steps, taken to see what a run will cost, diverged; nothing was written.
+    #[error("the first steps of this case fail: {0}")]
+    Tried(Box<Diverged>),
     /// The arrangement of particles could not be measured.
     #[error("the disorder of the particles cannot be measured: {0}")]
     Disorder(#[from] DisorderError),

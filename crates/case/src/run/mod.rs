@@ -1,14 +1,19 @@
 //! Running a case: the only time loop of the project.
 
+mod alarm;
+mod audit;
 mod books;
 mod checkpoint;
 mod contact;
+mod convergence;
 pub mod curves;
+mod diagnosis;
 mod error;
 mod frames;
 mod history;
 mod measures;
 mod memory;
+mod reactions;
 mod recorder;
 mod setup;
 mod sheet;
@@ -21,17 +26,19 @@ pub use error::RunError;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
-use crate::build::{Built, build};
+use crate::build::{Built, build, increments};
+use alarm::Alarm;
 use books::Books;
 use checkpoint::Schedule;
+use convergence::Convergence;
 use output::{Frame, ResultDir, Summary};
 use recorder::Recorder;
 use setup::{Setup, again, anew};
 use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::integrator::Diverged;
-use taut::simulation::{Numbers, Simulation, Totals};
+use taut::integrator::{Cause, Diverged};
+use taut::simulation::{Increment, Numbers, QuasiStatic, Simulation, Totals};
 use watcher::Watcher;
 
 /// How to run a case.
@@ -66,6 +73,8 @@ pub trait Observer: Send {
     fn started(&mut self, _case: &Case, _particles: usize, _threads: usize) {}
     /// A doubt about the case or the run.
     fn warned(&mut self, _warning: &str) {}
+    /// An increment of a quasi-static run is over, of so many.
+    fn settled(&mut self, _increment: &Increment, _of: u32) {}
     /// Where the run stands; called after every step.
     fn stepped(&mut self, _progress: &Progress) {}
     /// The run goes on after these frames: time, s, and file of each.
@@ -150,19 +159,22 @@ fn in_pool(
     (threads, checkpoints): (&rayon::ThreadPool, &Checkpoints),
     observer: &mut dyn Observer,
 ) -> Result<Summary, RunError> {
-    let Setup { mut simulation, probes, writer, remembered, before, numbers } = setup;
+    let Setup { mut simulation, probes, writer, remembered, before, numbers, across } = setup;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Clock { since: Instant::now(), before });
+    let mut convergence = increments(case).map(|_| Convergence::create(results)).transpose()?;
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
+    let alarm = writer.alarm.clone();
+    let (schedule, stop) = (Schedule::new(checkpoints.every), &checkpoints.stop);
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
-        let schedule = Schedule::new(checkpoints.every);
-        let stop = &checkpoints.stop;
-        let march = March { case, simulation: &mut simulation, watcher, clock, stop, schedule };
+        let convergence = convergence.as_mut();
+        let simulation = &mut simulation;
+        let march = March { case, simulation, convergence, watcher, alarm: &alarm, clock, stop, schedule };
         let recorder = Recorder::new(case, probes, outbox);
         march.finish(match remembered {
             Some(remembered) => recorder.remembering(remembered),
@@ -173,8 +185,9 @@ fn in_pool(
     let (Some(writer), Ok((start, schedule, ended))) = (writer, marched) else {
         return Err(RunError::Writer);
     };
-    let wall = clock.wall();
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, schedule, wall };
+    let (wall, across, simulation) = (clock.wall(), &across, &simulation);
+    let books =
+        Books { case, results, simulation, across, numbers, writer, start, schedule, wall, convergence };
     match ended {
         Ended::Done => books.done(),
         Ended::Stopped => Err(books.stopped()?),
@@ -200,7 +213,9 @@ impl Clock {
 struct March<'a> {
     case: &'a Case,
     simulation: &'a mut Simulation,
+    convergence: Option<&'a mut Convergence>,
     watcher: &'a Watcher<'a>,
+    alarm: &'a Alarm,
     clock: Clock,
     stop: &'a Stop,
     schedule: Schedule,
@@ -221,9 +236,14 @@ impl March<'_> {
         let ended = self.steps(&mut recorder)?;
         let start = recorder.start;
         match ended {
-            Ended::Done => recorder.end(self.simulation)?,
+            // Only equilibria are noted of a quasi-static run, and it does not go on from between two of them.
+            Ended::Stopped if self.case.quasi_static.is_some() => recorder.abandon(self.simulation)?,
             // A frame or a look that was not due would be missing in the run that goes on.
             Ended::Stopped => self.checkpoint(&mut recorder)?,
+            // Disorder is no wrong number: the state as it stopped is as good as any.
+            Ended::Done | Ended::Diverged(Diverged { cause: Cause::Disordered, .. }) => {
+                recorder.end(self.simulation)?;
+            }
             Ended::Diverged(_) => recorder.abandon(self.simulation)?,
         }
         Ok((start, self.schedule, ended))
@@ -236,6 +256,11 @@ impl March<'_> {
             }
             recorder.begin(self.simulation)?;
         }
+        if let Some(increments) = increments(self.case) {
+            let own = self.case.damping.is_none();
+            let statics = QuasiStatic::new(self.simulation, increments, own);
+            return self.settle(recorder, statics);
+        }
         let end = self.case.time.end;
         while self.simulation.time() < end {
             if self.stop.is_requested() {
@@ -245,10 +270,10 @@ impl March<'_> {
                 return Ok(Ended::Diverged(diverged));
             }
             recorder.after_step(self.simulation)?;
-            let wall = self.clock.wall();
-            let progress =
-                Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
-            self.watcher.with(|observer| observer.stepped(&progress));
+            self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Ended::Diverged(stopped));
+            }
             if self.schedule.is_due(self.clock.since.elapsed()) {
                 self.checkpoint(recorder)?;
             }
@@ -262,5 +287,38 @@ impl March<'_> {
         recorder.checkpoint(self.simulation, self.clock.wall())?;
         self.schedule.note(began, self.clock.since.elapsed());
         Ok(())
+    }
+
+    /// From equilibrium to equilibrium; only equilibria are noted.
+    fn settle(&mut self, recorder: &mut Recorder<'_>, mut statics: QuasiStatic) -> Result<Ended, WriterGone> {
+        let of = self.case.quasi_static.map_or(0, |s| s.increments);
+        while !statics.is_done() {
+            if self.stop.is_requested() {
+                return Ok(Ended::Stopped);
+            }
+            match statics.step(self.simulation) {
+                Err(diverged) => return Ok(Ended::Diverged(diverged)),
+                Ok(None) => {}
+                Ok(Some(increment)) => {
+                    recorder.after_step(self.simulation)?;
+                    if let Some(convergence) = self.convergence.as_deref_mut() {
+                        convergence.push(increment);
+                    }
+                    self.watcher.with(|observer| observer.settled(&increment, of));
+                }
+            }
+            self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Ended::Diverged(stopped));
+            }
+        }
+        Ok(Ended::Done)
+    }
+
+    fn stepped(&self) {
+        let wall = self.clock.wall();
+        let (time, end) = (self.simulation.time(), self.case.time.end);
+        let progress = Progress { time, end, step: self.simulation.steps(), wall };
+        self.watcher.with(|observer| observer.stepped(&progress));
     }
 }

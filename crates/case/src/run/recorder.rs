@@ -1,6 +1,7 @@
 //! What a run notes as it goes: it reads what is due off the simulation; the writer does the rest.
 
 use super::checkpoint::{self, Saving};
+use super::reactions::Meter;
 use super::sheet::{Outbox, Sample, WriterGone};
 use crate::Case;
 use crate::build::ProbePoint;
@@ -10,6 +11,8 @@ use taut::simulation::{Simulation, Totals};
 pub struct Recorder<'a> {
     case: &'a Case,
     points: Vec<ProbePoint>,
+    /// What each probe of a boundary, and each boundary for the looks, has seen.
+    meters: [Vec<Meter>; 2],
     outbox: Outbox,
     due: Due,
     /// Energies and momenta at the start, once it has started.
@@ -27,12 +30,24 @@ pub struct Due {
     measured: Option<(f64, u64)>,
 }
 
-impl Due {
-    /// Of how many probes.
-    pub fn probes(&self) -> usize {
-        self.probes.len()
-    }
+/// What a checkpoint remembers of a recorder.
+pub struct Remembered {
+    /// What is due.
+    pub due: Due,
+    /// Readings of probes and of boundaries.
+    pub meters: [Vec<Meter>; 2],
+    /// Energies and momenta at the start.
+    pub start: Totals,
+}
 
+impl Remembered {
+    /// Whether it is of so many probes and boundaries.
+    pub fn fits(&self, probes: usize, boundaries: usize) -> bool {
+        self.due.probes.len() == probes && self.meters.each_ref().map(Vec::len) == [probes, boundaries]
+    }
+}
+
+impl Due {
     /// As numbers, to be kept; what is not known is no number.
     pub fn saved(&self) -> Vec<f64> {
         let (when, at) = self.measured.map_or((f64::NAN, 0.0), |(when, at)| (when, at as f64));
@@ -53,12 +68,13 @@ impl<'a> Recorder<'a> {
     /// A recorder before the start.
     pub fn new(case: &'a Case, points: Vec<ProbePoint>, outbox: Outbox) -> Self {
         let due = Due { probes: vec![0.0; points.len()], ..Due::default() };
-        Self { case, points, outbox, due, start: None }
+        let meters = [points.len(), case.boundaries.len()].map(|n| vec![Meter::default(); n]);
+        Self { case, points, meters, outbox, due, start: None }
     }
 
     /// The recorder of a run that goes on, with what a checkpoint remembered.
-    pub fn remembering(self, (due, start): (Due, Totals)) -> Self {
-        Self { due, start: Some(start), ..self }
+    pub fn remembering(self, Remembered { due, meters, start }: Remembered) -> Self {
+        Self { due, meters, start: Some(start), ..self }
     }
 
     /// Writes a checkpoint of this simulation now, between two of its steps; `wall` is the wall time of the run so far, s. Everything that
@@ -69,7 +85,7 @@ impl<'a> Recorder<'a> {
     pub fn checkpoint(&mut self, simulation: &Simulation, wall: f64) -> Result<(), WriterGone> {
         let Some(start) = &self.start else { return Ok(()) };
         let mut draft = checkpoint::draft(simulation);
-        checkpoint::remember(&mut draft, &self.due, start);
+        checkpoint::remember(&mut draft, (&self.due, &self.meters), start);
         let saving = Saving { draft, step: simulation.steps(), time: simulation.time(), wall };
         self.outbox.sheet.saving = Some(saving);
         self.outbox.post()
@@ -93,8 +109,14 @@ impl<'a> Recorder<'a> {
         for i in 0..self.points.len() {
             if time >= self.due.probes[i] {
                 self.due.probes[i] += self.case.probes[i].interval;
-                let value = self.points[i].value(simulation.solvers());
-                self.outbox.sheet.samples.push(Sample { probe: i, time, value });
+                let meter = &mut self.meters[0][i];
+                let value = match &self.points[i] {
+                    ProbePoint::Motion(followed) => Some(followed.value(simulation.solvers())),
+                    ProbePoint::Force(boundary) => meter.mean(simulation, *boundary).map(|r| r.linear),
+                    ProbePoint::Moment(boundary) => meter.mean(simulation, *boundary).map(|r| r.angular),
+                };
+                let sample = value.map(|value| Sample { probe: i, time, value });
+                self.outbox.sheet.samples.extend(sample);
             }
         }
         let (frame, look) = (time >= self.due.frame, time >= self.due.look);
@@ -128,6 +150,8 @@ impl<'a> Recorder<'a> {
         let sheet = &mut self.outbox.sheet;
         sheet.totals = simulation.snapshot(&mut sheet.snapshot);
         (sheet.step, sheet.look, sheet.measure, sheet.frame) = (step, look, measure, frame);
+        let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
+        sheet.reactions.extend(means);
         if frame {
             self.due.framed = Some(time);
         }

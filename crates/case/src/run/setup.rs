@@ -2,15 +2,15 @@
 
 use super::checkpoint::{self, Found};
 use super::error::RunError;
-use super::recorder::Due;
+use super::recorder::Remembered;
 use super::writer::Writer;
 use crate::Case;
-use crate::build::{Built, ProbePoint};
+use crate::build::{Built, ProbePoint, Watch};
 use output::checkpoint::About;
 use output::manifest::{Machine, Resumed};
 use output::{Manifest, ResultDir};
 use taut::run::InstructionSet;
-use taut::simulation::{Numbers, Simulation, Totals};
+use taut::simulation::{Numbers, Simulation};
 
 /// Everything that the loop needs.
 pub struct Setup<'a> {
@@ -21,11 +21,13 @@ pub struct Setup<'a> {
     /// The files.
     pub writer: Writer<'a>,
     /// What a checkpoint remembered.
-    pub remembered: Option<(Due, Totals)>,
+    pub remembered: Option<Remembered>,
     /// Wall time before, s.
     pub before: f64,
     /// What is computed with.
     pub numbers: Numbers,
+    /// Particles across the thinnest part of each body.
+    pub across: Vec<usize>,
 }
 
 /// The machine, as a manifest says it.
@@ -41,10 +43,27 @@ pub fn anew<'a>(case: &'a Case, results: &ResultDir, built: Built) -> Result<Set
     let (threads, precision) = (rayon::current_num_threads(), built.numbers.name());
     let manifest = Manifest::new(case.case_text_as_run(), machine(), threads, precision);
     manifest.write(results)?;
-    let Built { solvers, drives, probes, watch, numbers, warnings, .. } = built;
+    let (simulation, rest) = simulation(built);
+    let Rest { probes, watch, numbers, warnings, across } = rest;
     let writer = Writer::create(case, results, (watch, About::of(&manifest)), warnings)?;
-    let simulation = Simulation::new(solvers, drives);
-    Ok(Setup { simulation, probes, writer, remembered: None, before: 0.0, numbers })
+    Ok(Setup { simulation, probes, writer, remembered: None, before: 0.0, numbers, across })
+}
+
+/// What is built beside the simulation.
+struct Rest {
+    probes: Vec<ProbePoint>,
+    watch: Box<dyn Watch>,
+    numbers: Numbers,
+    warnings: Vec<String>,
+    across: Vec<usize>,
+}
+
+/// The simulation as it is built, not begun.
+fn simulation(built: Built) -> (Simulation, Rest) {
+    let Built { solvers, drives, grips, damping, probes, watch, numbers, warnings, across, .. } = built;
+    let mut simulation = Simulation::new(solvers, drives).damped(damping);
+    simulation.hold(grips);
+    (simulation, Rest { probes, watch, numbers, warnings, across })
 }
 
 /// A run from a checkpoint, which is no longer needed then. Nothing is written before everything fits.
@@ -57,16 +76,16 @@ pub fn again<'a>(
     found: Found,
     built: Built,
 ) -> Result<Setup<'a>, RunError> {
-    let Built { solvers, drives, probes, watch, numbers, .. } = built;
+    let (mut simulation, rest) = simulation(built);
+    let Rest { probes, watch, numbers, across, .. } = rest;
     let unfit = |reason: String| {
         let hint = found.other(results.path(), (case, &manifest));
         RunError::Checkpoint { path: found.path.clone(), reason, hint }
     };
-    let simulation =
-        checkpoint::resume(solvers, drives, &found.checkpoint).map_err(|error| unfit(error.to_string()))?;
-    let (due, start) = checkpoint::remembered(&found.checkpoint).map_err(unfit)?;
-    if due.probes() != probes.len() {
-        return Err(unfit("it has another number of probes".to_string()));
+    checkpoint::resume(&mut simulation, &found.checkpoint).map_err(|error| unfit(error.to_string()))?;
+    let remembered = checkpoint::remembered(&found.checkpoint).map_err(unfit)?;
+    if !remembered.fits(probes.len(), case.boundaries.len()) {
+        return Err(unfit("it has another number of probes or boundaries".to_string()));
     }
     found.clear(results)?;
     let About { step, wall_seconds: before, .. } = found.checkpoint.about;
@@ -75,5 +94,5 @@ pub fn again<'a>(
     manifest.write(results)?;
     let about = About { instruction_set: machine().instruction_set, ..About::of(&manifest) };
     let writer = Writer::reopen(case, results, (watch, about), (found.books, found.notes))?;
-    Ok(Setup { simulation, probes, writer, remembered: Some((due, start)), before, numbers })
+    Ok(Setup { simulation, probes, writer, remembered: Some(remembered), before, numbers, across })
 }

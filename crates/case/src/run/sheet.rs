@@ -12,6 +12,7 @@
 use super::checkpoint::Saving;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::Duration;
+use taut::integrator::Impulse;
 use taut::simulation::{Snapshot, Totals};
 
 /// So many samples of probes make a full sheet, even if nothing else is due.
@@ -40,6 +41,8 @@ pub struct Sheet {
     pub snapshot: Snapshot,
     /// Energies and momenta, likewise.
     pub totals: Totals,
+    /// Mean force and moment of every boundary since the sheet before that had particles on it; none at the first.
+    pub reactions: Vec<Impulse>,
     /// Steps taken.
     pub step: u64,
     /// Whether to note the energies, and whether bodies touch.
@@ -63,6 +66,7 @@ impl Sheet {
 
     fn wipe(&mut self) {
         self.samples.clear();
+        self.reactions.clear();
         (self.look, self.measure, self.frame, self.saving) = (false, false, false, None);
     }
 }

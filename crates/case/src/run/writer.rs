@@ -1,5 +1,7 @@
 //! What a run writes down, off the critical path: disorder, frames and tables.
 
+use super::alarm::{Alarm, Thresholds};
+use super::audit::Audit;
 use super::checkpoint::{Books, Notes, Saving};
 use super::contact::Contact;
 use super::error::RunError;
@@ -15,6 +17,7 @@ use output::manifest::utc;
 use output::{Frame, OutputError, ProbeTable, ResultDir, Table};
 use rayon::ThreadPool;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::SystemTime;
 
 /// The writer's side of the books.
@@ -34,10 +37,15 @@ pub struct Writer<'a> {
     pub series: Vec<Series>,
     /// Measures of disorder.
     pub disorder: DisorderHistory,
-    /// Time, kinetic, strain and total energy.
-    pub energies: Vec<[f64; 4]>,
+    /// The books of energy and momentum.
+    pub audit: Audit,
     /// What was doubtful.
     pub warnings: Vec<String>,
+    thresholds: Thresholds,
+    /// Where it is told that a run has to end.
+    pub alarm: Arc<Alarm>,
+    /// Time of the last frame, s.
+    framed: Option<f64>,
 }
 
 impl<'a> Writer<'a> {
@@ -53,9 +61,8 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
         for probe in &case.probes {
-            let unit = if probe.quantity == crate::Quantity::Velocity { "m/s" } else { "m" };
-            let columns: Vec<(&str, &str)> =
-                ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
+            let axes = &["x", "y", "z"][probe.quantity.axes(case.dimension)];
+            let columns: Vec<(&str, &str)> = axes.iter().map(|axis| (*axis, probe.quantity.unit())).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
         references(case, results)?;
@@ -72,8 +79,11 @@ impl<'a> Writer<'a> {
             kept: None,
             series: vec![Series::default(); case.probes.len()],
             disorder: DisorderHistory::default(),
-            energies: Vec::new(),
+            audit: Audit::create(case, results)?,
             warnings,
+            thresholds: Thresholds::default(),
+            alarm: Arc::default(),
+            framed: None,
         })
     }
 
@@ -87,12 +97,13 @@ impl<'a> Writer<'a> {
         (watch, about): (Box<dyn Watch>, About),
         (books, notes): (Books, Notes),
     ) -> Result<Self, RunError> {
+        let framed = books.frames.last().copied();
         let frames = output::Series::reopen(results, books.frames, notes.framed)?;
         let (mut tables, mut series) = (Vec::new(), Vec::new());
         for (probe, mark) in case.probes.iter().zip(&notes.tables) {
-            let (table, rows) = ProbeTable::reopen(results, &probe.name, mark)?;
+            let (table, rows) = ProbeTable::reopen(output::table_path(results.path(), &probe.name), mark)?;
             tables.push(table);
-            series.push(samples(rows));
+            series.push(samples(rows, probe.quantity.axes(case.dimension).start));
         }
         Ok(Self {
             case,
@@ -107,9 +118,17 @@ impl<'a> Writer<'a> {
             kept: None,
             series,
             disorder: books.disorder,
-            energies: books.energies,
+            audit: Audit::reopen(case, results, &notes.audit, &books.audit)?,
             warnings: notes.warnings,
+            thresholds: Thresholds::restored(notes.crossed),
+            alarm: Arc::default(),
+            framed,
         })
+    }
+
+    /// How many frames there are, and the time of the last one, s.
+    pub fn last_frame(&self) -> Option<(usize, f64)> {
+        Some((self.frames.frames(), self.framed?))
     }
 
     /// When bodies first touched, s.
@@ -139,6 +158,7 @@ impl<'a> Writer<'a> {
             inbox.back(sheet);
             if let Some((frame, bytes)) = frame {
                 self.frames.store(&frame, &bytes)?;
+                self.framed = Some(frame.time);
                 self.flush()?;
                 watcher.with(|observer| observer.framed(frame));
             }
@@ -155,8 +175,15 @@ impl<'a> Writer<'a> {
     fn save(&mut self, saving: Saving, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let Saving { mut draft, step, time, wall } = saving;
         let tables = self.tables.iter_mut().map(ProbeTable::mark).collect::<Result<Vec<_>, _>>()?;
-        let notes = Notes { tables, warnings: self.warnings.clone(), framed: self.frames.last_step() };
-        Books::add(&mut draft, self.frames.times(), &self.energies, (&self.disorder, &self.contact));
+        let notes = Notes {
+            tables,
+            warnings: self.warnings.clone(),
+            framed: self.frames.last_step(),
+            audit: self.audit.marks()?,
+            crossed: self.thresholds.saved(),
+        };
+        let books = (&self.disorder, &self.contact);
+        Books::add(&mut draft, self.frames.times(), &self.audit.saved(), books);
         let written = utc(SystemTime::now());
         let about = About { step, time, wall_seconds: wall, written, ..self.about.clone() };
         let kept = self.keeper.keep(&draft, &about, &notes.in_words());
@@ -172,12 +199,13 @@ impl<'a> Writer<'a> {
         for table in &mut self.tables {
             table.flush()?;
         }
-        Ok(())
+        self.audit.flush()
     }
 
     fn tabulate(&mut self, sheet: &Sheet) -> Result<(), RunError> {
         for sample in &sheet.samples {
-            self.tables[sample.probe].push(sample.time, &sample.value[..self.case.dimension])?;
+            let axes = self.case.probes[sample.probe].quantity.axes(self.case.dimension);
+            self.tables[sample.probe].push(sample.time, &sample.value[axes])?;
             let series = &mut self.series[sample.probe];
             series.times.push(sample.time);
             for (column, v) in series.values.iter_mut().zip(sample.value) {
@@ -189,6 +217,9 @@ impl<'a> Writer<'a> {
 
     /// What is due of the disorder and, if one is due, a frame with the bytes of its file.
     fn digest(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<Option<(Frame, Vec<u8>)>, RunError> {
+        if sheet.look || sheet.frame {
+            self.audit.look(sheet)?;
+        }
         if sheet.look {
             self.look(sheet, watcher)?;
         }
@@ -202,8 +233,7 @@ impl<'a> Writer<'a> {
     }
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
-        let (time, totals) = (sheet.snapshot.time, &sheet.totals);
-        self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
+        let time = sheet.snapshot.time;
         if self.contact.is_awaited() {
             self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
         }
@@ -211,11 +241,12 @@ impl<'a> Writer<'a> {
             return Ok(());
         }
         let disorder = self.watch.measure(&sheet.snapshot)?;
-        let zigzag = disorder.zigzag_rms;
-        let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
-        if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
-            let warning =
-                format!("disorder: zigzag_rms is {zigzag:.4} at t = {time:.6} s; zero-energy modes grow");
+        let monitor = &self.case.monitor;
+        for crossed in self.thresholds.crossed(monitor, &disorder) {
+            if monitor.stop {
+                self.alarm.raise(crossed, self.watch.most_zigzag().unwrap_or(0) as u32);
+            }
+            let warning = crossed.warning(time);
             watcher.with(|observer| observer.warned(&warning));
             self.warnings.push(warning);
         }
@@ -229,10 +260,10 @@ pub fn untouched(case: &Case) -> Contact {
     Contact::new(2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max))
 }
 
-/// The samples in a table.
-fn samples(table: Table) -> Series {
+/// The samples in a table whose first column is this axis.
+fn samples(table: Table, axis: usize) -> Series {
     let mut values: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; table.times.len()]);
-    for (to, column) in values.iter_mut().zip(table.columns) {
+    for (to, column) in values.iter_mut().skip(axis).zip(table.columns) {
         *to = column.values;
     }
     Series { times: table.times, values }

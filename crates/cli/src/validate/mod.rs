@@ -24,6 +24,8 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../../validation/tl-plate/accept.toml")),
     ("tl-bending-column", include_str!("../../../../validation/tl-bending-column/accept.toml")),
     ("tl-twisting-column", include_str!("../../../../validation/tl-twisting-column/accept.toml")),
+    ("tl-pull-2d", include_str!("../../../../validation/tl-pull-2d/accept.toml")),
+    ("tl-pull-3d", include_str!("../../../../validation/tl-pull-3d/accept.toml")),
     ("ul-plate-2d", include_str!("../../../../validation/ul-plate-2d/accept.toml")),
     ("ul-rings", include_str!("../../../../validation/ul-rings/accept.toml")),
 ];

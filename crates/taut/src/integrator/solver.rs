@@ -1,10 +1,11 @@
 //! What a simulation needs of a body in time.
 
-use super::Diverged;
+use super::{Bounding, Diverged, Held, Impulse, Relax};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
+use crate::run::Relist;
 use std::ops::Range;
 
 /// What there is to see of one particle, at the present time.
@@ -61,6 +62,14 @@ pub trait Solver: Send + Sync {
     fn begin(&mut self, dt: f64);
     /// The longest stable step now, s.
     fn stable_step(&self) -> f64;
+    /// What bounds that step.
+    fn bounding(&self) -> Bounding;
+    /// The particle, by id, that is at the bound: a search through all of them. `None` if all are alike.
+    fn at_bound(&self, bounding: &Bounding) -> Option<u32>;
+    /// How neighbours are found.
+    fn reach(&self) -> Relist;
+    /// The fields that its particles carry.
+    fn fields(&self) -> &'static [Quantity];
     /// The step up to where the next one can be known.
     ///
     /// # Errors
@@ -75,12 +84,22 @@ pub trait Solver: Send + Sync {
     /// Everything that has to be kept so that the solver can go on bit by bit, between two steps: columns, and what is integrated
     /// beside them. What [`Solver::restore`] makes again identically is left out.
     fn save(&self) -> Vec<Part<'_>>;
-    /// Puts back what [`Solver::save`] gave, into a solver that was made in the same way and not started; lists are those of the
+    /// Puts back what [`Solver::save`] gave, into a solver that was made and started in the same way; lists are then those of the
     /// saved solver.
     ///
     /// # Errors
     /// If a part is not there or does not fit, or belongs to other particles.
     fn restore(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError>;
+
+    /// What holding these particles took in the step of `dt` that [`advance`](Self::advance) has just made.
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse;
+    /// What the body forces on these particles, by id, gave in it.
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse;
+
+    /// The same as something that can be brought to rest, if it can.
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        None
+    }
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];
@@ -104,6 +123,7 @@ pub trait Solver: Send + Sync {
     fn show(&self, ids: Range<usize>, to: &mut dyn FnMut(&Seen)) {
         for id in ids {
             let place = self.stored(id);
+            let state = self.state(place);
             to(&Seen {
                 id: id as u32,
                 body: self.scalar(Quantity::Body, place) as u32,
@@ -111,9 +131,9 @@ pub trait Solver: Send + Sync {
                 reference: self.read(Quantity::ReferencePosition, place),
                 displacement: self.read(Quantity::Displacement, place),
                 velocity: self.read(Quantity::Velocity, place),
-                dissipated: self.scalar(Quantity::Dissipated, place),
+                dissipated: self.scalar(Quantity::Dissipated, place) - state.booked_ahead,
                 external_work: self.scalar(Quantity::ExternalWork, place),
-                state: self.state(place),
+                state,
             });
         }
     }

@@ -1,13 +1,18 @@
 //! A simulation taken apart, and put together again.
 
-use super::{Drive, Simulation, Solver};
+use super::{Guard, Simulation};
 use crate::particles::saved::{Part, RestoreError, Shelf};
 
 impl Simulation {
-    /// Everything that the next step depends on: clock, solvers, drives. Between two steps.
+    /// Everything that the next step depends on, and what has come from outside so far: clock, solvers, drives, books. Between two
+    /// steps. What a quasi-static run remembers beside it is not among it.
     #[must_use]
     pub fn save(&self) -> Vec<Part<'_>> {
-        let mut parts = vec![Part::numbers("clock", &[self.time, self.dt, self.steps as f64])];
+        let mut parts = vec![
+            Part::numbers("clock", &[self.time, self.dt, self.steps as f64]),
+            Part::numbers("guard", &self.guard.saved()),
+            Part::numbers("audit", &self.audit.saved()),
+        ];
         for (i, solver) in self.solvers.iter().enumerate() {
             parts.extend(solver.save().into_iter().map(|part| part.within(&solver_level(i))));
         }
@@ -17,32 +22,39 @@ impl Simulation {
         parts
     }
 
-    /// The simulation that [`Simulation::save`] was taken from, made of solvers and drives that were built in the same way and have not
-    /// begun. It goes on bit by bit, with any number of threads.
+    /// Takes up where the simulation was that [`Simulation::save`] was taken from, instead of [`begin`](Self::begin): this one has been
+    /// made in the same way. It goes on bit by bit, with any number of threads. The history of its time steps is forgotten.
     ///
     /// # Errors
     /// If a part is not there or does not fit, or belongs to other particles.
-    pub fn resume(
-        solvers: Vec<Box<dyn Solver>>,
-        drives: Vec<Box<dyn Drive>>,
-        shelf: &mut Shelf<'_>,
-    ) -> Result<Self, RestoreError> {
-        let mut simulation = Self::new(solvers, drives);
+    pub fn resume(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
+        // Lists of the reference configuration, and what the books find out about the start, come from there.
+        for solver in &mut self.solvers {
+            solver.start().map_err(|_| RestoreError::Foreign("they cannot be started"))?;
+        }
+        self.audit.start(&self.solvers, &self.drives);
         let [time, dt, steps] = shelf.numbers("clock")?;
         if !(dt > 0.0 && time >= 0.0) {
             return Err(shelf.unfit("clock", "no time or no step"));
         }
-        (simulation.time, simulation.dt, simulation.steps) = (time, dt, shelf.count("clock", steps)?);
-        for (i, solver) in simulation.solvers.iter_mut().enumerate() {
+        (self.time, self.dt, self.steps) = (time, dt, shelf.count("clock", steps)?);
+        self.guard = Guard::restored(shelf.numbers("guard")?);
+        let audit = shelf.doubles("audit", self.audit.saved().len())?;
+        if !self.audit.restore(&audit) {
+            return Err(shelf.unfit("audit", "other grips"));
+        }
+        for (i, solver) in self.solvers.iter_mut().enumerate() {
             shelf.enter(&solver_level(i));
             solver.restore(shelf)?;
         }
-        for (i, drive) in simulation.drives.iter_mut().enumerate() {
+        for (i, drive) in self.drives.iter_mut().enumerate() {
             shelf.enter(&drive_level(i));
             drive.restore(shelf)?;
         }
         shelf.enter("");
-        Ok(simulation)
+        let (at_bound, _) = self.stable_step();
+        self.remember((at_bound, dt));
+        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a simulation looks like from outside, at one instant.
 
 use super::{Seen, Simulation};
-use crate::integrator::Solver;
+use crate::integrator::{Impulse, Solver, cross};
 use crate::math::Tensor;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -126,10 +126,14 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// Angular momentum about the origin, kg m^2/s.
     pub angular_momentum: [f64; 3],
+    /// What constraints and body forces gave since the start.
+    pub impulse: Impulse,
+    /// Sum of m |v|, kg m/s, and of m |x| |v|, kg m^2/s: what an error of the momenta is small or large against.
+    pub motion: [f64; 2],
 }
 
 impl Totals {
-    /// Adds those of other particles.
+    /// Adds those of other particles; the impulse is that of all already.
     fn and(mut self, other: &Self) -> Self {
         self.kinetic += other.kinetic;
         self.strain += other.strain;
@@ -139,6 +143,8 @@ impl Totals {
             self.momentum[i] += other.momentum[i];
             self.angular_momentum[i] += other.angular_momentum[i];
         }
+        self.motion[0] += other.motion[0];
+        self.motion[1] += other.motion[1];
         self
     }
 
@@ -149,11 +155,14 @@ impl Totals {
         self.strain += seen.state.strain_energy;
         self.dissipated += seen.dissipated;
         self.external_work += seen.external_work;
+        let moment = cross(x, v);
         for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             self.momentum[i] += m * v[i];
-            self.angular_momentum[i] += m * (x[j] * v[k] - x[k] * v[j]);
+            self.angular_momentum[i] += m * moment[i];
         }
+        let speed = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        self.motion[0] += m * speed;
+        self.motion[1] += m * speed * x.iter().map(|c| c * c).sum::<f64>().sqrt();
     }
 }
 
@@ -175,7 +184,8 @@ impl Simulation {
     pub fn snapshot(&self, snapshot: &mut Snapshot) -> Totals {
         snapshot.resize(self.len());
         snapshot.time = self.time;
-        let (mut totals, mut first) = (Totals::default(), 0);
+        let mut totals = Totals { impulse: self.audit.total(), ..Totals::default() };
+        let mut first = 0;
         for solver in &self.solvers {
             let chunks = snapshot.chunks(first..first + solver.len()).enumerate();
             let sums: Vec<Totals> = chunks.map(|(k, mut chunk)| chunk.fill(&**solver, k * CHUNK)).collect();
@@ -188,7 +198,7 @@ impl Simulation {
     /// Energies and momenta now.
     #[must_use]
     pub fn totals(&self) -> Totals {
-        let mut totals = Totals::default();
+        let mut totals = Totals { impulse: self.audit.total(), ..Totals::default() };
         for solver in &self.solvers {
             for first in (0..solver.len()).step_by(CHUNK) {
                 let mut sum = Totals::default();

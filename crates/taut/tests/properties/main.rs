@@ -5,9 +5,12 @@
 mod common;
 
 mod constraints;
+mod damping;
 mod divergence;
 mod energy;
+mod impulses;
 mod lanes;
+mod moduli;
 mod momentum;
 mod patch;
 mod plane;

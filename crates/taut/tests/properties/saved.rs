@@ -83,7 +83,8 @@ fn bits(values: &Values<'_>) -> Vec<u64> {
 
 fn resumed(kept: &Kept, solvers: Vec<Box<dyn Solver>>) -> Result<Simulation, RestoreError> {
     let mut source = |name: &str, _: usize| kept.get(name).cloned().ok_or_else(|| "not there".to_string());
-    Simulation::resume(solvers, drives(), &mut Shelf::new(&mut source))
+    let mut simulation = Simulation::new(solvers, drives());
+    simulation.resume(&mut Shelf::new(&mut source)).map(|()| simulation)
 }
 
 fn steps(simulation: &mut Simulation, n: usize, threads: usize) {

@@ -2,10 +2,12 @@
 
 use crate::run::contact::Contact;
 use crate::run::history::DisorderHistory;
-use crate::run::recorder::Due;
+use crate::run::reactions::Meter;
+use crate::run::recorder::{Due, Remembered};
 use output::Mark;
 use output::checkpoint::{Checkpoint, Draft};
 use serde::{Deserialize, Serialize};
+use taut::integrator::Impulse;
 use taut::simulation::Totals;
 
 /// What a checkpoint holds in words.
@@ -18,6 +20,10 @@ pub struct Notes {
     pub warnings: Vec<String>,
     /// Steps taken at the last frame.
     pub framed: Option<u64>,
+    /// How long the tables of the audit were: energies and momenta, and reactions if there are any.
+    pub audit: Vec<Mark>,
+    /// Thresholds of disorder that have been crossed.
+    pub crossed: [bool; 3],
 }
 
 impl Notes {
@@ -41,8 +47,8 @@ impl Notes {
 pub struct Books {
     /// Times of the frames, s.
     pub frames: Vec<f64>,
-    /// Time, kinetic, strain and total energy.
-    pub energies: Vec<[f64; 4]>,
+    /// The books of energy and momentum.
+    pub audit: Vec<f64>,
     /// Measures of disorder.
     pub disorder: DisorderHistory,
     /// The first touch.
@@ -51,22 +57,23 @@ pub struct Books {
 
 /// Names in the file.
 const FRAMES: &str = "books/frames";
-const ENERGIES: &str = "books/energies";
+const AUDIT: &str = "books/audit";
 const DISORDER: &str = "books/disorder";
 const CONTACT: &str = "books/contact";
 const DUE: &str = "recorder/due";
 const START: &str = "recorder/start";
+const METERS: [&str; 2] = ["recorder/probes", "recorder/boundaries"];
 
 impl Books {
     /// Adds them to a draft.
     pub fn add(
         draft: &mut Draft,
         frames: &[f64],
-        energies: &[[f64; 4]],
+        audit: &[f64],
         (disorder, contact): (&DisorderHistory, &Contact),
     ) {
         draft.add(FRAMES, frames);
-        draft.add(ENERGIES, energies.as_flattened());
+        draft.add(AUDIT, audit);
         draft.add(DISORDER, &disorder.saved());
         draft.add(CONTACT, &contact.saved());
     }
@@ -78,12 +85,9 @@ impl Books {
     pub fn of(checkpoint: &Checkpoint, contact: Contact) -> Result<Self, String> {
         let numbers = |name: &str| checkpoint.numbers(name).map_err(|reason| format!("`{name}`: {reason}"));
         let unfit = |name: &str| format!("`{name}` has another length");
-        let energies = numbers(ENERGIES)?;
-        let (rows, rest) = energies.as_chunks::<4>();
-        let energies = if rest.is_empty() { rows.to_vec() } else { return Err(unfit(ENERGIES)) };
         Ok(Self {
             frames: numbers(FRAMES)?,
-            energies,
+            audit: numbers(AUDIT)?,
             disorder: DisorderHistory::restored(&numbers(DISORDER)?).ok_or_else(|| unfit(DISORDER))?,
             contact: contact.restored(&numbers(CONTACT)?).ok_or_else(|| unfit(CONTACT))?,
         })
@@ -91,23 +95,70 @@ impl Books {
 }
 
 /// Adds what the recorder remembers to a draft.
-pub fn remember(draft: &mut Draft, due: &Due, start: &Totals) {
+pub fn remember(draft: &mut Draft, (due, meters): (&Due, &[Vec<Meter>; 2]), start: &Totals) {
     draft.add(DUE, &due.saved());
-    let energies = [start.kinetic, start.strain, start.dissipated, start.external_work];
-    draft.add(START, &[&energies[..], &start.momentum, &start.angular_momentum].concat());
+    draft.add(START, &of_totals(start));
+    for (name, meters) in METERS.iter().zip(meters) {
+        let numbers: Vec<f64> = meters.iter().flat_map(Meter::saved).collect();
+        draft.add(name, &numbers);
+    }
 }
 
 /// Reads it.
 ///
 /// # Errors
 /// If something is not there or does not fit.
-pub fn remembered(checkpoint: &Checkpoint) -> Result<(Due, Totals), String> {
-    let due = Due::restored(&checkpoint.numbers(DUE).map_err(|reason| format!("`{DUE}`: {reason}"))?);
-    let due = due.ok_or_else(|| format!("`{DUE}` has another length"))?;
-    let start = checkpoint.numbers(START).map_err(|reason| format!("`{START}`: {reason}"))?;
-    let &[kinetic, strain, dissipated, external_work, px, py, pz, lx, ly, lz] = start.as_slice() else {
-        return Err(format!("`{START}` has another length"));
+pub fn remembered(checkpoint: &Checkpoint) -> Result<Remembered, String> {
+    let numbers = |name: &str| checkpoint.numbers(name).map_err(|reason| format!("`{name}`: {reason}"));
+    let unfit = |name: &str| format!("`{name}` has another length");
+    let due = Due::restored(&numbers(DUE)?).ok_or_else(|| unfit(DUE))?;
+    let start = totals(&numbers(START)?).ok_or_else(|| unfit(START))?;
+    let meters = |name: &str| {
+        let numbers = numbers(name)?;
+        let (rows, rest) = numbers.as_chunks::<7>();
+        if rest.is_empty() { Ok(rows.iter().map(Meter::restored).collect()) } else { Err(unfit(name)) }
+    };
+    Ok(Remembered { due, meters: [meters(METERS[0])?, meters(METERS[1])?], start })
+}
+
+/// Energies, momenta and impulses as numbers.
+pub fn of_totals(totals: &Totals) -> [f64; 18] {
+    let t = totals;
+    let ([px, py, pz], [lx, ly, lz]) = (t.momentum, t.angular_momentum);
+    let ([ix, iy, iz], [jx, jy, jz]) = (t.impulse.linear, t.impulse.angular);
+    let [line, around] = t.motion;
+    let energies = (t.kinetic, t.strain, t.dissipated, t.external_work);
+    let (kinetic, strain, dissipated, work) = energies;
+    [kinetic, strain, dissipated, work, px, py, pz, lx, ly, lz, ix, iy, iz, jx, jy, jz, line, around]
+}
+
+/// The other way round.
+pub fn totals(numbers: &[f64]) -> Option<Totals> {
+    let &[
+        kinetic,
+        strain,
+        dissipated,
+        external_work,
+        px,
+        py,
+        pz,
+        lx,
+        ly,
+        lz,
+        ix,
+        iy,
+        iz,
+        jx,
+        jy,
+        jz,
+        line,
+        around,
+    ] = numbers
+    else {
+        return None;
     };
     let (momentum, angular_momentum) = ([px, py, pz], [lx, ly, lz]);
-    Ok((due, Totals { kinetic, strain, dissipated, external_work, momentum, angular_momentum }))
+    let impulse = Impulse { linear: [ix, iy, iz], angular: [jx, jy, jz] };
+    let motion = [line, around];
+    Some(Totals { kinetic, strain, dissipated, external_work, momentum, angular_momentum, impulse, motion })
 }

@@ -1,6 +1,7 @@
 //! A run that was interrupted, found in its result directory.
 
 use super::{Books, Notes};
+use crate::run::audit::Audit;
 use crate::run::writer::untouched;
 use crate::{Case, CaseError, Overrides};
 use output::checkpoint::{Checkpoint, kept, set_aside};
@@ -174,8 +175,9 @@ fn usable(path: &Path, results: &Path, (case, manifest): (&Case, &Manifest)) -> 
     if notes.tables.len() != case.probes.len() {
         return Err(nonsense("it has another number of probes".to_string()));
     }
-    for (probe, mark) in case.probes.iter().zip(&notes.tables) {
-        Table::read_until(results, &probe.name, mark).map_err(|error| error.to_string())?;
+    let tables = case.probes.iter().map(|probe| output::table_path(results, &probe.name)).zip(&notes.tables);
+    for (path, mark) in tables.chain(Audit::files(results, 2).zip(&notes.audit)) {
+        Table::read_until(&path, mark).map_err(|error| error.to_string())?;
     }
     Series::check(results, books.frames.len()).map_err(|error| error.to_string())?;
     Ok((checkpoint, books, notes))

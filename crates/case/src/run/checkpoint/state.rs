@@ -3,7 +3,7 @@
 use output::checkpoint::{Checkpoint, Draft, Numbers, Packed};
 use rayon::prelude::*;
 use taut::particles::saved::{Part, RestoreError, Shelf, Values};
-use taut::simulation::{Drive, Simulation, Solver};
+use taut::simulation::Simulation;
 
 /// A checkpoint on its way to the writer.
 #[derive(Debug)]
@@ -31,15 +31,11 @@ pub fn draft(simulation: &Simulation) -> Draft {
     Draft::new(simulation.save().into_par_iter().map(packed).collect())
 }
 
-/// The simulation of a checkpoint, from solvers and drives as they were built.
+/// Takes a simulation that has not begun to where it was at a checkpoint.
 ///
 /// # Errors
 /// What does not fit.
-pub fn resume(
-    solvers: Vec<Box<dyn Solver>>,
-    drives: Vec<Box<dyn Drive>>,
-    checkpoint: &Checkpoint,
-) -> Result<Simulation, RestoreError> {
+pub fn resume(simulation: &mut Simulation, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
     let mut source = |name: &str, most: usize| {
         Ok(match checkpoint.take(name, most)? {
             Numbers::F64(values) => Values::Double(values),
@@ -47,5 +43,5 @@ pub fn resume(
             Numbers::U32(values) => Values::Whole(values),
         })
     };
-    Simulation::resume(solvers, drives, &mut Shelf::new(&mut source))
+    simulation.resume(&mut Shelf::new(&mut source))
 }

@@ -6,6 +6,7 @@ use crate::field::{Quantity, Record};
 use crate::math::Element;
 use crate::particles::saved::Values;
 use crate::particles::{GUARD, Particles, stride};
+use crate::run::Numbers;
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -147,6 +148,17 @@ impl<const D: usize, P: Precision> Store<D, P> {
         }
     }
 
+    /// One number of all particles, whichever precision it is kept in.
+    pub fn numbers(&self, field: Quantity, word: usize) -> Numbers<'_> {
+        let column = self.particles.place(field) + word;
+        if self.is_single(field, column) {
+            let first = self.at(column);
+            Numbers::Single(&self.single[first..first + self.particles.len()])
+        } else {
+            Numbers::Double(self.particles.nth(column))
+        }
+    }
+
     /// One number, whichever precision it is kept in.
     pub fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
         let column = self.particles.place(field) + word;
@@ -189,7 +201,10 @@ impl<const D: usize, P: Precision> Store<D, P> {
             Values::Double(values) => to.copy_from_slice(values),
             Values::Single(values) if P::MIXED && !field.is_state() => {
                 for (to, &from) in to.iter_mut().zip(values.iter()) {
-                    *to = f64::from(from);
+                    // What the set-up wrote stays where nothing has changed: lists of the reference configuration are made from it.
+                    if (*to as f32).to_bits() != from.to_bits() {
+                        *to = f64::from(from);
+                    }
                 }
                 self.room();
                 self.single_column(column);
