@@ -58,6 +58,11 @@ velocity = ["-5*(1 - cos(1e5*t))", 0, 0]
 [[boundary]]
 region = { box = { min = ["9 mm", -1, -1], max = ["1 m", 1, 1] } }
 displacement = ["free", "1e-4*sin(2e4*t)", 0]
+name = "grip"
+[[probe]]
+name = "pull"
+of = "grip"
+quantity = "reaction"
 "#;
 
 /// Two bodies on no lattice that meet.
@@ -132,6 +137,9 @@ fn left(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             let name = Path::new(folder).join(entry.file_name());
             files.insert(name, fs::read(entry.path()).expect("a file"));
         }
+    }
+    for table in ["audit.csv", "reactions.csv"] {
+        files.extend(fs::read(out.join(table)).ok().map(|bytes| (table.into(), bytes)));
     }
     let text = fs::read(out.join("summary.json")).expect("a summary");
     let mut summary: serde_json::Value = serde_json::from_slice(&text).expect("JSON");

@@ -58,6 +58,8 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
             Err(Failure::Stopped(error.to_string(), signals.status()))
         }
         Err(error) if error.is_input() => Err(Failure::Input(format!("{error}{}", way_on(&out)))),
+        // It would end there again.
+        Err(error @ RunError::Diverged { .. }) => Err(Failure::Run(error.to_string())),
         Err(error) => Err(Failure::Run(format!("{error}{}", way_on(&out)))),
     }
 }

@@ -120,7 +120,8 @@ impl<'a> Writer<'a> {
             disorder: books.disorder,
             audit: Audit::reopen(case, results, &notes.audit, &books.audit)?,
             warnings: notes.warnings,
-            thresholds: Thresholds::restored(notes.crossed),
+            // What ends a run ends it again.
+            thresholds: Thresholds::restored(notes.crossed.map(|crossed| crossed && !case.monitor.stop)),
             alarm: Arc::default(),
             framed,
         })

@@ -9,7 +9,7 @@ use taut::formulation::updated::Hypoelastic;
 use taut::particles::saved::{Part, RestoreError, Shelf, Values};
 use taut::pass::Now;
 use taut::simulation::{
-    Drive, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, UpdatedForm, total_body,
+    Calibration, Drive, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, UpdatedForm, total_body,
     updated_bodies,
 };
 
@@ -52,7 +52,7 @@ where
         updated_bodies(Point::points(points), (form, stress, &moduli), setup.updated_options(D), numbers)
     };
     match form {
-        Form::HourglassFree => total(TotalForm::HourglassFree),
+        Form::HourglassFree => total(TotalForm::HourglassFree(Calibration::Paper)),
         Form::TotalNested => total(TotalForm::Nested),
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
