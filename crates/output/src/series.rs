@@ -153,9 +153,9 @@ mod tests {
         }
         series.write(&frame(0.2)).unwrap();
         assert_eq!(series.frames(), 2);
-        let list = std::fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
+        let list = fs::read_to_string(scratch.path().join("particles/particles.pvd")).unwrap();
         assert_eq!(list.matches("<DataSet").count(), 2);
-        assert_eq!(std::fs::read_dir(scratch.path().join("particles")).unwrap().count(), 3);
+        assert_eq!(fs::read_dir(scratch.path().join("particles")).unwrap().count(), 3);
     }
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
     fn a_folder_that_vanished_is_an_error_with_the_file() {
         let scratch = tempfile::tempdir().unwrap();
         let mut series = Series::create(&ResultDir::create(scratch.path()).unwrap()).unwrap();
-        std::fs::remove_dir(scratch.path().join("particles")).unwrap();
+        fs::remove_dir(scratch.path().join("particles")).unwrap();
         let error = series.write(&frame(0.0)).unwrap_err();
         assert!(error.to_string().contains("particles_000000.vtp"), "{error}");
         assert_eq!(series.frames(), 0);
