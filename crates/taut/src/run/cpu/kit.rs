@@ -1,6 +1,6 @@
 //! Which lanes a run uses: for each precision and instruction set, one type for pair sums and one for updates.
 
-use super::lines::Plain;
+use crate::particles::Plain;
 #[cfg(target_arch = "aarch64")]
 use crate::math::neon;
 use crate::math::plain::{Plain4, PlainSingle8};

@@ -20,7 +20,7 @@
 //! slower. What comes next in the list is asked for ahead of time: the hardware does not see it coming (measured: twice the speed).
 
 use super::CHUNK;
-use super::lines::{Lines, Plain};
+use crate::particles::{Lines, Plain};
 use crate::math::{Element, Lanes, MOST_LANES, Vector, prefetch};
 use crate::pass::{ALL_WEIGHTS, Pair};
 use rayon::prelude::*;

@@ -6,7 +6,6 @@
 
 mod homes;
 mod kit;
-mod lines;
 mod list;
 mod places;
 mod stencil;
@@ -18,10 +17,10 @@ pub use kit::{Double, InstructionSet, Precision, Single};
 use super::{Among, Relist, Run};
 use crate::field::{Quantity, Record};
 use crate::neighbours::{CellGrid, Lattice, SearchError};
-use crate::particles::Particles;
+use crate::particles::{Lines, Particles};
 use crate::pass::{Now, PairSum, Reduce, Update};
 use homes::Homes;
-use lines::Lines;
+
 use list::PairList;
 use places::{PairPlaces, Shared};
 use rayon::prelude::*;

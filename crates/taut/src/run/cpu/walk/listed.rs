@@ -6,7 +6,7 @@ use crate::math::{Element, Lanes};
 use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::lines::Plain;
+use crate::particles::Plain;
 use crate::run::cpu::list::{PairList, Weights, place_words};
 use crate::run::cpu::places::Span;
 

@@ -5,7 +5,7 @@ use crate::kernel::Kernel;
 use crate::math::{Element, Lanes, MOST_LANES};
 use crate::neighbours::{CellGrid, Near};
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::lines::Plain;
+use crate::particles::Plain;
 use crate::run::cpu::list::PairChunk;
 use crate::run::cpu::places::Shared;
 use std::sync::atomic::{AtomicU64, Ordering};
