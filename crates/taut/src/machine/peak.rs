@@ -71,9 +71,9 @@ unsafe fn with_avx2<L: Lanes>(rounds: u32) -> f64 {
 }
 
 /// # Safety
-/// The machine has AVX-512 F and DQ, AVX2 and FMA.
+/// The machine has AVX-512 F, DQ and VL, AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 unsafe fn with_avx512<L: Lanes>(rounds: u32) -> f64 {
     chains::<L>(rounds)
 }

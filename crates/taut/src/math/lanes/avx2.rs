@@ -126,25 +126,17 @@ real!(
     f32
 );
 
-/// How four lanes are packed: the halves of doubles, and the bytes of whole numbers, in their new order.
-struct Packed {
-    doubles: [u32; 8],
-    bytes: [u8; 16],
-}
-
-/// For every set of lanes.
-static PACKED: [Packed; 16] = {
-    let mut table = [const { Packed { doubles: [0; 8], bytes: [0; 16] } }; 16];
+/// How four numbers of four bytes are packed: their bytes in the new order, for every set of lanes.
+static PACKED: [[u8; 16]; 16] = {
+    let mut table = [[0; 16]; 16];
     let mut bits = 0;
     while bits < 16 {
         let (mut lane, mut found) = (0, 0);
         while lane < 4 {
             if bits >> lane & 1 == 1 {
-                table[bits].doubles[2 * found] = 2 * lane as u32;
-                table[bits].doubles[2 * found + 1] = 2 * lane as u32 + 1;
                 let mut byte = 0;
                 while byte < 4 {
-                    table[bits].bytes[4 * found + byte] = (4 * lane + byte) as u8;
+                    table[bits][4 * found + byte] = (4 * lane + byte) as u8;
                     byte += 1;
                 }
                 found += 1;
@@ -230,15 +222,14 @@ impl Lanes for F64x4 {
         }
     }
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
-        let order = &PACKED[bits as usize & 15];
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        let order = PACKED[bits as usize & 15].as_ptr();
         // SAFETY: the caller vouches for four numbers behind each address.
         unsafe {
-            let pairs = _mm256_loadu_si256(order.doubles.as_ptr().cast());
-            let packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(self.0), pairs);
-            _mm256_storeu_pd(to, _mm256_castps_pd(packed));
-            let bytes = _mm_loadu_si128(order.bytes.as_ptr().cast());
-            _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), bytes));
+            let order = _mm_loadu_si128(order.cast());
+            let packed = _mm_shuffle_epi8(_mm_castps_si128(_mm256_cvtpd_ps(self.0)), order);
+            _mm_storeu_si128(to.cast(), packed);
+            _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), order));
         }
     }
     #[inline(always)]

@@ -1,5 +1,5 @@
 //! Lanes of AVX-512. Reached only behind [`available`], through a function that carries
-//! `#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]` and into which all of this is inlined.
+//! `#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]` and into which all of this is inlined.
 
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
@@ -9,7 +9,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Whether this machine has what these lanes need.
 #[must_use]
 pub fn available() -> bool {
-    super::avx2::available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
+    super::avx2::available()
+        && is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
 }
 
 /// Eight doubles in one AVX-512 register.
@@ -217,13 +220,13 @@ impl Lanes for F64x8 {
         u32::from(mask)
     }
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
         // SAFETY: the caller vouches for eight numbers behind each address. (Packed in the register and stored whole: the
-        // instruction that stores only some lanes is slow on some processors. Ids go as 64 bits: half-width needs AVX-512 VL.)
+        // instruction that stores only some lanes is slow on some processors.)
         unsafe {
-            _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits as u8, self.0));
-            let wide = _mm512_cvtepu32_epi64(_mm256_loadu_si256(ids.cast()));
-            let packed = _mm512_cvtepi64_epi32(_mm512_maskz_compress_epi64(bits as u8, wide));
+            let packed = _mm256_maskz_compress_ps(bits as u8, _mm512_cvtpd_ps(self.0));
+            _mm256_storeu_ps(to, packed);
+            let packed = _mm256_maskz_compress_epi32(bits as u8, _mm256_loadu_si256(ids.cast()));
             _mm256_storeu_si256(to_ids.cast(), packed);
         }
     }

@@ -111,7 +111,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn search(&mut self, how: &Relist) -> Result<(), SearchError> {
         let x = self.store.particles().vector(how.positions);
         self.grid.build(x, how.kernel.support())?;
-        self.list.prepare(x, how.kernel.support());
+        self.list.prepare(x, &how.kernel);
         let mut chunks = std::mem::take(&mut self.list.chunks);
         let pairs = AtomicU64::new(0);
         let listing = walk::Listing {
@@ -147,6 +147,9 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
         let mut own = self.store.pair_places::<S::Reads>();
         self.list.places().for_each(|column| own.push(column));
+        if list::volume_apart::<P::E, D>() {
+            own.push(self.store.pair_column(Quantity::Volume, 0));
+        }
         let (stride, len) = (walk::stride::<S::Reads, P::E, D>(), self.len());
         if self.records.len() < len * stride {
             self.records.resize(len * stride);

@@ -55,9 +55,9 @@ pub unsafe fn avx2<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &C
 /// The loop with AVX-512 lanes.
 ///
 /// # Safety
-/// The machine has AVX-512 F and DQ, AVX2 and FMA.
+/// The machine has AVX-512 F, DQ and VL, AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 pub unsafe fn avx512<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
@@ -235,9 +235,9 @@ unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(updating: *const (), s
 }
 
 /// # Safety
-/// As [`call_base`], and the machine has AVX-512 F and DQ, AVX2 and FMA.
+/// As [`call_base`], and the machine has AVX-512 F, DQ and VL, AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
     unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }

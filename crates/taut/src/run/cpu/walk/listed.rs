@@ -7,14 +7,14 @@ use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
 use crate::particles::Plain;
-use crate::run::cpu::list::{PairList, Weights, place_words};
+use crate::run::cpu::list::{PairList, Weights, tail_words};
 use crate::run::cpu::places::Span;
 
 /// A sum over neighbours and the update that follows it.
 pub struct Listed<'a, P, E, const D: usize> {
     pub sum: &'a P,
     pub then: Then<'a>,
-    /// Packed records, [`stride`] numbers for each particle; the place follows what the pass reads.
+    /// Packed records, [`stride`] numbers for each particle; place and volume follow what the pass reads.
     pub records: &'a [E],
     pub list: &'a PairList<E, D>,
     pub now: Now<f64>,
@@ -22,7 +22,7 @@ pub struct Listed<'a, P, E, const D: usize> {
 
 /// Numbers from one packed record of `R` to the next.
 pub const fn stride<R: Record<D>, E: Element, const D: usize>() -> usize {
-    (R::WORDS + place_words::<E, D>()).next_multiple_of(4)
+    (R::WORDS + tail_words::<E, D>()).next_multiple_of(4)
 }
 
 /// The words of the neighbours, lane by lane.

@@ -6,7 +6,7 @@ use crate::math::{Element, Lanes, MOST_LANES};
 use crate::neighbours::{CellGrid, Near};
 use crate::run::cpu::kit::Kit;
 use crate::particles::Plain;
-use crate::run::cpu::list::PairChunk;
+use crate::run::cpu::list::{PairChunk, volume_apart};
 use crate::run::cpu::places::Shared;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -38,8 +38,9 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
     ) -> usize {
         let own = self.x.map(|column| U::of(column[a]));
         let square = U::of(self.grid.radius() * self.grid.radius());
+        let per_square = U::of(1.0 / (self.kernel.h() * self.kernel.h()));
         let (slots, positions) = (self.grid.ids(), self.grid.positions());
-        let (ids, squares) = (&mut list.ids[first..], &mut list.r2);
+        let (ids, squares) = (&mut list.ids[first..], &mut list.q2);
         debug_assert!(ids.len().min(squares.len()) >= near.candidates() + MOST_LANES);
         let mut found = 0;
         for range in near.ranges() {
@@ -58,7 +59,7 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
                 // room for those and the lanes of one more.
                 unsafe {
                     let to = (squares.as_mut_ptr().add(found), ids.as_mut_ptr().add(found));
-                    r2.compress(bits, slots.as_ptr().add(slot), to);
+                    (r2 * per_square).compress(bits, slots.as_ptr().add(slot), to);
                 }
                 found += bits.count_ones() as usize;
             }
@@ -71,34 +72,39 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         let Some(tag) = self.same else { return found };
         let mut left = 0;
         for k in 0..found {
-            (list.ids[first + left], list.r2[left]) = (list.ids[first + k], list.r2[k]);
+            (list.ids[first + left], list.q2[left]) = (list.ids[first + k], list.q2[k]);
             left += usize::from(tag[a] == tag[list.ids[first + left] as usize]);
         }
         left
     }
 
-    /// Fills the last block with `a`, without weight, and makes the weights of all `len` numbers from `first` on.
+    /// Fills the last block with `a`, without weight, and makes the weights of all `len` numbers from `first` on; what stands behind
+    /// them, up to the lanes of `W`, is overwritten.
     #[inline(always)]
-    fn weigh<U: Lanes<E = f64>>(
+    fn weigh<W: Lanes<E = f32>>(
         &self,
         a: usize,
         (found, len): (usize, usize),
         (first, list): (usize, &mut PairChunk<E>),
     ) {
         list.ids[first + found..first + len].fill(a as u32);
-        list.r2[found..len].fill(0.0);
-        let mut volumes = [0.0; MOST_LANES];
-        for at in (0..len).step_by(U::N) {
-            for (l, volume) in volumes.iter_mut().enumerate().take(U::N) {
-                *volume = self.volume[list.ids[first + at + l] as usize];
-            }
-            // SAFETY: `len` is a multiple of the lanes, the list has room for it, and volumes hold any lanes.
+        list.q2[found..len].fill(0.0);
+        let slopes = if volume_apart::<E, D>() { first } else { 0 };
+        debug_assert!(slopes + len + W::N <= list.slope.len() && first + len + W::N <= list.over_q.len());
+        for at in (0..len).step_by(W::N) {
+            // SAFETY: there is room for `len` numbers and the lanes of one more load or store.
             unsafe {
-                let r = U::load(list.r2.as_ptr().add(at)).sqrt();
-                let over_r = U::select(U::zero().lt(r), U::one() / r, U::zero());
-                let w = self.kernel.dw(r) * over_r * U::load(volumes.as_ptr());
-                E::put(w, list.w.as_mut_ptr().add(first + at));
-                over_r.store_single(list.over_r.as_mut_ptr().add(first + at));
+                let q = W::load(list.q2.as_ptr().add(at)).sqrt();
+                let over_q = W::select(W::zero().lt(q), W::one() / q, W::zero());
+                (self.kernel.slope(q) * over_q).store(list.slope.as_mut_ptr().add(slopes + at));
+                over_q.store(list.over_q.as_mut_ptr().add(first + at));
+            }
+        }
+        if !volume_apart::<E, D>() {
+            let steepness = self.kernel.steepness();
+            let pairs = list.ids[first..first + len].iter().zip(&list.slope[..len]);
+            for (w, (&b, &slope)) in list.w[first..first + len].iter_mut().zip(pairs) {
+                *w = E::from_f64(f64::from(slope) * (self.volume[b as usize] * steepness));
             }
         }
     }
@@ -121,11 +127,11 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
                 near = self.grid.near(self.x.map(|column| column[a]));
             }
             let most = near.candidates() + 2 * MOST_LANES;
-            list.room(first + most, most);
+            list.room((first + most, most), volume_apart::<E, D>());
             let found = self.find::<K::Point>(a, &near, (first, list));
             let found = self.sift(a, found, (first, list));
             let len = found.next_multiple_of(lanes);
-            self.weigh::<K::Point>(a, (found, len), (first, list));
+            self.weigh::<K::Weight>(a, (found, len), (first, list));
             first += len;
             list.start.push((first / lanes) as u32);
             list.pairs += found as u64;
