@@ -1,7 +1,7 @@
 //! Where the numbers of a record stand in memory, so that chunks can be read and written from several threads.
 
 use crate::field::{Quantity, Record, Sink, Source};
-use crate::math::{Element, Lanes, MOST_LANES};
+use crate::math::{Element, Lanes, MOST_LANES, prefetch};
 use crate::run::MAX_WORDS;
 
 /// A pointer that threads share. Sound because every thread writes its own chunk only, and what a pair sum reads of others is not
@@ -79,6 +79,14 @@ impl<E: Element> PairPlaces<E> {
         self.len += 1;
     }
 
+    /// Asks for the numbers of particle `a`, and of those in the same cache lines.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize) {
+        for column in &self.columns[..self.len] {
+            prefetch(column.0.wrapping_add(a));
+        }
+    }
+
     /// How many numbers.
     pub fn len(&self) -> usize {
         self.len
@@ -144,6 +152,7 @@ pub struct Column {
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
     columns: [Column; MAX_WORDS],
+    len: usize,
 }
 
 // SAFETY: as `Shared`.
@@ -164,7 +173,20 @@ impl Places {
                 k += 1;
             }
         }
-        Self { columns }
+        Self { columns, len: k }
+    }
+
+    /// Asks for the numbers of particle `a`, and of those in the same cache lines, in part `part` of `parts` of the columns.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize, (part, parts): (usize, usize)) {
+        for column in self.columns[..self.len].iter().skip(part).step_by(parts) {
+            if !column.double.is_null() {
+                prefetch(column.double.wrapping_add(a));
+            }
+            if !column.single.is_null() {
+                prefetch(column.single.wrapping_add(a));
+            }
+        }
     }
 }
 

@@ -18,7 +18,6 @@ use crate::field::{Record, Sink, Source};
 use crate::math::{Lanes, MOST_LANES};
 use crate::pass::{Now, Update};
 use crate::run::MAX_WORDS;
-use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
 /// A run of consecutive particles (or blocks of them) that one thread works on.
@@ -182,9 +181,10 @@ impl<U> Updating<'_, U> {
 /// one for a block of particles.
 #[derive(Clone, Copy)]
 pub struct Then<'a> {
+    reads: &'a Places,
+    writes: &'a Places,
     updating: *const (),
     call: unsafe fn(*const (), Span, &Sums),
-    lives: PhantomData<&'a ()>,
 }
 
 // SAFETY: what is behind the pointer is an `Updating`, which may be shared.
@@ -207,7 +207,16 @@ impl<'a> Then<'a> {
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx512 => call_avx512::<P::Avx512, U, D>,
         };
-        Self { updating: std::ptr::from_ref(updating).cast(), call, lives: PhantomData }
+        let (reads, writes) = (updating.reads, updating.writes);
+        Self { reads, writes, updating: std::ptr::from_ref(updating).cast(), call }
+    }
+
+    /// Asks for what an update of particle `a` reads and writes, a part of it at a time: these are dozens of columns, too many for the
+    /// hardware to see them coming.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize, part: (usize, usize)) {
+        self.reads.fetch(a, part);
+        self.writes.fetch(a, part);
     }
 
     /// Updates particles whose sums are in `sums`.

@@ -2,7 +2,7 @@
 
 use super::{Chunk, Spread, Sums, Then, Walk};
 use crate::field::{Record, Source};
-use crate::math::{Element, Lanes};
+use crate::math::{Element, Lanes, prefetch};
 use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
@@ -24,6 +24,9 @@ pub struct Listed<'a, P, E, const D: usize> {
 pub const fn stride<R: Record<D>, E: Element, const D: usize>() -> usize {
     (R::WORDS + tail_words::<E, D>()).next_multiple_of(4)
 }
+
+/// Particles between the one at work and the one whose record is asked for.
+const AHEAD: usize = 2048;
 
 /// The words of the neighbours, lane by lane.
 struct Words<V>([V; MAX_WORDS]);
@@ -86,6 +89,11 @@ impl<P: PairSum<D>, E: Element + Plain, const D: usize> Walk<E> for Listed<'_, P
             let count = (chunk.end - first).min(K::Point::N);
             for lane in 0..count {
                 rows.lane = lane;
+                self.then.fetch(first + K::Point::N, (lane, K::Point::N));
+                for line in (0..stride::<P::Reads, E, D>() * size_of::<E>()).step_by(64) {
+                    let at = self.records.as_ptr().wrapping_add((first + lane + AHEAD) * stride::<P::Reads, E, D>());
+                    prefetch(at.wrapping_byte_add(line));
+                }
                 self.gather((first + lane, first + lane - chunk.first), &weights, &mut rows);
             }
             rows.total(P::Adds::WORDS, (count, K::Point::N), &mut sums);
