@@ -1,10 +1,16 @@
 //! Particles sorted into cells.
 //!
-//! A cell is a little wider than the search radius, so all that is near a point lies in the 3^D cells around it.
+//! ```text
+//!  2D, around o:   |    |    |    |    |    |    |      cells are a little wider than the search radius, but a quarter of that along the
+//!                  |    |####|####|####|    |    |      last axis: all that is near a point lies in three lines of nine cells (3D: nine
+//!                  |    |####|##o#|####|    |    |      lines), each of which is one range of slots, 25 % shorter than three whole
+//!                  |    |####|####|####|    |    |      cells (the last axis goes down here, four rows to a cell)
+//! ```
+//!
 //! The grid is folded: cell `c` of an axis is stored in row `c mod rows`. Where the particles' extent asks for
 //! no more rows than there are, folding changes nothing; where it asks for too many (one particle flung far
 //! away), distant cells share a place and the distance test tells them apart. Memory is thus bounded by the
-//! number of particles, never by where they are. At least three rows per axis keep the three cells around a
+//! number of particles, never by where they are. At least three rows per axis (nine along the last) keep the cells around a
 //! point apart.
 
 use std::ops::Range;
@@ -14,10 +20,12 @@ use rayon::prelude::*;
 use super::error::{self, SearchError};
 use crate::math::MOST_LANES;
 
+/// Cells along the last axis to one along the others.
+const SLICES: usize = 4;
 /// Cells wider than the radius by this share, so that the rounding of a cell number cannot move two particles
-/// within the radius more than one cell apart.
+/// within the radius more than one cell (or [`SLICES`]) apart.
 const MARGIN: f64 = 1e-4;
-/// Cells along the extent at most: cell numbers are then rounded by less than 3 * 2^-53 * 2^36 < 0.3 MARGIN.
+/// Whole cells along the extent at most: cell numbers are then rounded by less than 3 * 2^-53 * 2^36 < 0.3 MARGIN.
 const FINEST: f64 = (1_u64 << 36) as f64;
 /// Cells per particle at most,
 const CELLS_PER_PARTICLE: usize = 4;
@@ -33,8 +41,9 @@ const CHUNK: usize = 1 << 14;
 pub struct CellGrid<const D: usize> {
     radius: f64,
     origin: [f64; D],
-    cells_per_metre: f64,
+    cells_per_metre: [f64; D],
     rows: [usize; D],
+    folded: [bool; D],
     cell: Vec<u32>,
     start: Vec<u32>,
     id: Vec<u32>,
@@ -55,10 +64,11 @@ impl<const D: usize> CellGrid<D> {
         Self {
             radius: 1.0,
             origin: [0.0; D],
-            cells_per_metre: 1.0,
-            rows: [3; D],
+            cells_per_metre: [1.0; D],
+            rows: least(),
+            folded: [false; D],
             cell: Vec::new(),
-            start: vec![0; 3_usize.pow(D as u32) + 2],
+            start: vec![0; least::<D>().iter().product::<usize>() + 2],
             id: Vec::new(),
             x: std::array::from_fn(|_| Vec::new()),
         }
@@ -105,35 +115,51 @@ impl<const D: usize> CellGrid<D> {
     }
 
     /// Slots that may lie within the radius of `point` (m); each slot at most once, always in the same order.
+    #[inline(always)]
     pub fn near(&self, point: [f64; D]) -> Near {
-        let place = self.place(point);
+        let cell = self.cell_at(point);
+        let along = self.around(D - 1, cell[D - 1], SLICES);
         let mut near = Near::none();
         for turn in 0..3_usize.pow(D as u32 - 1) {
-            let mut digits = turn;
-            let mut line = 0;
+            let (mut digits, mut line) = (turn, Some(0));
             for axis in 0..D - 1 {
-                line = line * self.rows[axis] + shift(place[axis], digits % 3, self.rows[axis]);
+                let row = self.row(axis, cell[axis] + (digits % 3) as i64 - 1);
+                line = line.zip(row).map(|(line, row)| line * self.rows[axis] + row);
                 digits /= 3;
             }
-            self.line(line * self.rows[D - 1], place[D - 1], &mut near);
+            let Some(line) = line else { continue };
+            let first = line * self.rows[D - 1];
+            for (from, end) in along {
+                near.push(self.start[first + from], self.start[first + end]);
+            }
         }
         near
     }
 
-    /// Adds the three cells around `middle` on the line of cells that starts at `first`.
-    fn line(&self, first: usize, middle: usize, near: &mut Near) {
-        let last = self.rows[D - 1] - 1;
-        let mut add =
-            |from: usize, to: usize| near.push(self.start[first + from], self.start[first + to + 1]);
-        if middle == 0 {
-            add(0, 1);
-            add(last, last);
-        } else if middle == last {
-            add(0, 0);
-            add(last - 1, last);
+    /// Where a cell of an axis is stored; nowhere, if it is beyond the particles.
+    #[inline(always)]
+    fn row(&self, axis: usize, cell: i64) -> Option<usize> {
+        let rows = self.rows[axis] as i64;
+        if (0..rows).contains(&cell) {
+            Some(cell as usize)
+        } else if self.folded[axis] {
+            Some(cell.rem_euclid(rows) as usize)
         } else {
-            add(middle - 1, middle + 1);
+            None
         }
+    }
+
+    /// Where the cells up to `reach` from `middle` are stored, as ranges of rows.
+    #[inline(always)]
+    fn around(&self, axis: usize, middle: i64, reach: usize) -> [(usize, usize); 2] {
+        let (rows, reach) = (self.rows[axis] as i64, reach as i64);
+        let (from, end) = (middle - reach, middle + reach + 1);
+        if !self.folded[axis] {
+            return [(from.clamp(0, rows) as usize, end.clamp(0, rows) as usize), (0, 0)];
+        }
+        let from = from.rem_euclid(rows);
+        let end = from + 2 * reach + 1;
+        [(from as usize, end.min(rows) as usize), (0, (end - rows).max(0) as usize)]
     }
 
     /// Chooses origin, cell size and the number of rows per axis.
@@ -148,9 +174,13 @@ impl<const D: usize> CellGrid<D> {
         let longest = extent.iter().copied().fold(0.0, f64::max);
         let size = (radius * (1.0 + MARGIN)).max(longest / FINEST);
         self.radius = radius;
-        self.cells_per_metre = 1.0 / size;
         let most = (CELLS_PER_PARTICLE * x[0].len()).clamp(FEW_CELLS, 1 << 31);
-        self.rows = fold(extent.map(|length| (length / size) as usize + 1), most);
+        let sizes: [f64; D] = std::array::from_fn(|axis| size / if axis + 1 == D { SLICES as f64 } else { 1.0 });
+        let wanted: [usize; D] = std::array::from_fn(|axis| (extent[axis] / sizes[axis]) as usize + 1);
+        self.cells_per_metre = sizes.map(|size| 1.0 / size);
+        self.rows = fold(wanted, most);
+        // One more, in case that the rounding of a cell number disagrees with that of the extent.
+        self.folded = std::array::from_fn(|axis| wanted[axis] + 1 > self.rows[axis]);
     }
 
     /// Finds the cell of every particle.
@@ -197,13 +227,22 @@ impl<const D: usize> CellGrid<D> {
         }
     }
 
-    /// Row of a point along each axis, folded.
+    /// The cell of a point along each axis.
+    #[inline(always)]
+    fn cell_at(&self, point: [f64; D]) -> [i64; D] {
+        let mut cell = [0; D];
+        for axis in 0..D {
+            cell[axis] = ((point[axis] - self.origin[axis]) * self.cells_per_metre[axis]).floor() as i64;
+        }
+        cell
+    }
+
+    /// Where the cell of a point is stored along each axis.
     fn place(&self, point: [f64; D]) -> [usize; D] {
+        let cell = self.cell_at(point);
         std::array::from_fn(|axis| {
-            let cell = ((point[axis] - self.origin[axis]) * self.cells_per_metre).floor() as i64;
             let rows = self.rows[axis] as i64;
-            let folded = if (0..rows).contains(&cell) { cell } else { cell.rem_euclid(rows) };
-            folded as usize
+            (if (0..rows).contains(&cell[axis]) { cell[axis] } else { cell[axis].rem_euclid(rows) }) as usize
         })
     }
 }
@@ -238,27 +277,23 @@ impl Near {
     }
 }
 
-/// The row `step - 1` further than `row`, of `rows` rows in a circle; `step` is 0, 1 or 2.
-fn shift(row: usize, step: usize, rows: usize) -> usize {
-    let moved = row + step + rows - 1;
-    if moved >= 2 * rows {
-        moved - 2 * rows
-    } else if moved >= rows {
-        moved - rows
-    } else {
-        moved
-    }
+/// Least number of rows per axis.
+fn least<const D: usize>() -> [usize; D] {
+    std::array::from_fn(|axis| if axis + 1 == D { 2 * SLICES + 1 } else { 3 })
 }
 
-/// Number of rows to store per axis where the extent asks for `wanted`: at least 3, in all about `most` or less.
+/// Number of rows to store per axis where the extent asks for `wanted`: no fewer than [`least`], in all about `most` or less.
 fn fold<const D: usize>(wanted: [usize; D], most: usize) -> [usize; D] {
-    let mut rows = wanted.map(|count| count.clamp(3, most.max(3)));
+    let least = least::<D>();
+    let mut rows: [usize; D] =
+        std::array::from_fn(|axis| wanted[axis].saturating_add(1).clamp(least[axis], most.max(least[axis])));
     while rows.iter().map(|&count| count as f64).product::<f64>() > most as f64 {
-        let longest = (0..D).fold(0, |best, axis| if rows[axis] > rows[best] { axis } else { best });
-        if rows[longest] == 3 {
+        let ratio = |axis: usize| rows[axis] as f64 / least[axis] as f64;
+        let longest = (0..D).fold(0, |best, axis| if ratio(axis) > ratio(best) { axis } else { best });
+        if rows[longest] == least[longest] {
             break;
         }
-        rows[longest] = (rows[longest] / 2).max(3);
+        rows[longest] = (rows[longest] / 2).max(least[longest]);
     }
     rows
 }
@@ -288,9 +323,9 @@ mod tests {
     }
 
     #[test]
-    fn three_rows_at_least_and_halving_the_longest() {
-        assert_eq!(fold([1, 1], 4), [3, 3]);
-        assert_eq!(fold([1000, 20, 20], 340_000), [500, 20, 20]);
+    fn three_and_nine_rows_at_least_and_halving_the_longest() {
+        assert_eq!(fold([1, 1], 4), [3, 9]);
+        assert_eq!(fold([999, 19, 79], 1_400_000), [500, 20, 80]);
     }
 
     #[test]

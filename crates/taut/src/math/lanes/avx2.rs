@@ -1,5 +1,5 @@
 //! Lanes of AVX2 with fused multiply-add. Reached only behind [`available`], through a function that carries
-//! `#[target_feature(enable = "avx2,fma")]` and into which all of this is inlined.
+//! `#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
@@ -9,7 +9,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Whether this machine has what these lanes need.
 #[must_use]
 pub fn available() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+    // The last three came with AVX2 in every processor: counting and shifting bits.
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("popcnt")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
 }
 
 /// Four doubles in one AVX register.

@@ -1,5 +1,5 @@
 //! Lanes of AVX-512. Reached only behind [`available`], through a function that carries
-//! `#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]` and into which all of this is inlined.
+//! `#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;

@@ -44,9 +44,9 @@ pub fn base<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
 /// The loop with AVX2 lanes: everything below is inlined here and compiled for AVX2.
 ///
 /// # Safety
-/// The machine has AVX2 and FMA.
+/// The machine has what AVX2 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]
 pub unsafe fn avx2<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
@@ -54,9 +54,9 @@ pub unsafe fn avx2<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &C
 /// The loop with AVX-512 lanes.
 ///
 /// # Safety
-/// The machine has AVX-512 F, DQ and VL, AVX2 and FMA.
+/// The machine has what AVX-512 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]
 pub unsafe fn avx512<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
@@ -235,18 +235,18 @@ unsafe fn call_base<K: Kit, U: Update<D>, const D: usize>(updating: *const (), s
 }
 
 /// # Safety
-/// As [`call_base`], and the machine has AVX2 and FMA.
+/// As [`call_base`], and the machine has what AVX2 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
     unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
 }
 
 /// # Safety
-/// As [`call_base`], and the machine has AVX-512 F, DQ and VL, AVX2 and FMA.
+/// As [`call_base`], and the machine has what AVX-512 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
     unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
