@@ -1,16 +1,19 @@
 //! Particles sorted into cells.
 //!
 //! ```text
-//!  2D, around o:   |    |    |    |    |    |    |      cells are a little wider than the search radius, but a quarter of that along the
-//!                  |    |####|####|####|    |    |      last axis: all that is near a point lies in three lines of nine cells (3D: nine
-//!                  |    |####|##o#|####|    |    |      lines), each of which is one range of slots, 25 % shorter than three whole
-//!                  |    |####|####|####|    |    |      cells (the last axis goes down here, four rows to a cell)
+//!  2D, around o:  |   |   |   |   |   |     lines of cells go down: a cell is a little wider than the search radius, and an eighth of that
+//!                 |   |###|###|###|   |     long (drawn: a half). So all that is near a point lies in three lines of 17 cells (3D: nine
+//!                 |   |###|###|###|   |     lines), each of which is one range of slots, 29 % shorter than three cells as long as they are
+//!                 |   |###|# o|###|   |     wide.
+//!                 |   |###|###|###|   |
+//!                 |   |###|###|###|   |
+//!                 |   |   |   |   |   |
 //! ```
 //!
 //! The grid is folded: cell `c` of an axis is stored in row `c mod rows`. Where the particles' extent asks for
 //! no more rows than there are, folding changes nothing; where it asks for too many (one particle flung far
 //! away), distant cells share a place and the distance test tells them apart. Memory is thus bounded by the
-//! number of particles, never by where they are. At least three rows per axis (nine along the last) keep the cells around a
+//! number of particles, never by where they are. At least three rows per axis (17 along the last) keep the cells around a
 //! point apart.
 
 use std::ops::Range;
@@ -21,7 +24,7 @@ use super::error::{self, SearchError};
 use crate::math::MOST_LANES;
 
 /// Cells along the last axis to one along the others.
-const SLICES: usize = 4;
+const SLICES: usize = 8;
 /// Cells wider than the radius by this share, so that the rounding of a cell number cannot move two particles
 /// within the radius more than one cell (or [`SLICES`]) apart.
 const MARGIN: f64 = 1e-4;
@@ -50,11 +53,14 @@ pub struct CellGrid<const D: usize> {
     x: [Vec<f64>; D],
 }
 
-/// Ranges of slots that together hold every particle within the radius of a point, and others further away.
+/// The cells around a point: lines of them, and which of each line. [`CellGrid::ranges`] makes ranges of slots of it.
 #[derive(Debug, Clone)]
 pub struct Near {
-    ranges: [(u32, u32); 18],
+    /// The first cell of each line.
+    lines: [u32; 9],
     len: usize,
+    /// Which cells of a line, as one range or two.
+    along: [(u32, u32); 2],
 }
 
 impl<const D: usize> CellGrid<D> {
@@ -99,9 +105,11 @@ impl<const D: usize> CellGrid<D> {
         self.rows.iter().product()
     }
 
-    /// The cell a particle is in; two particles of one cell have the same [`CellGrid::near`].
-    pub fn cell_of(&self, particle: usize) -> u32 {
-        self.cell[particle]
+    /// The line of cells that a particle is in, and its cell on the line.
+    #[inline(always)]
+    pub fn cell_of(&self, particle: usize) -> (u32, u32) {
+        let (cell, rows) = (self.cell[particle], self.rows[D - 1] as u32);
+        (cell / rows, cell % rows)
     }
 
     /// The particle in each slot; behind them stand as many readable numbers as any type has lanes.
@@ -114,12 +122,10 @@ impl<const D: usize> CellGrid<D> {
         std::array::from_fn(|axis| &self.x[axis][..self.cell.len()])
     }
 
-    /// Slots that may lie within the radius of `point` (m); each slot at most once, always in the same order.
-    #[inline(always)]
+    /// The cells that hold everything within the radius of `point` (m).
     pub fn near(&self, point: [f64; D]) -> Near {
         let cell = self.cell_at(point);
-        let along = self.around(D - 1, cell[D - 1], SLICES);
-        let mut near = Near::none();
+        let mut near = Near { along: self.around(cell[D - 1]), ..Near::none() };
         for turn in 0..3_usize.pow(D as u32 - 1) {
             let (mut digits, mut line) = (turn, Some(0));
             for axis in 0..D - 1 {
@@ -127,13 +133,31 @@ impl<const D: usize> CellGrid<D> {
                 line = line.zip(row).map(|(line, row)| line * self.rows[axis] + row);
                 digits /= 3;
             }
-            let Some(line) = line else { continue };
-            let first = line * self.rows[D - 1];
-            for (from, end) in along {
-                near.push(self.start[first + from], self.start[first + end]);
+            if let Some(line) = line {
+                near.lines[near.len] = (line * self.rows[D - 1]) as u32;
+                near.len += 1;
             }
         }
         near
+    }
+
+    /// Moves `near` to another cell of the same line.
+    #[inline(always)]
+    pub fn slide(&self, near: &mut Near, cell: u32) {
+        near.along = self.around(i64::from(cell));
+    }
+
+    /// The slots in part `part` of the cells of `near`, below [`Near::parts`]. In all, each slot comes at most once, always in the same
+    /// order.
+    #[inline(always)]
+    pub fn range(&self, near: &Near, part: usize) -> Range<usize> {
+        let (first, (from, end)) = (near.lines[part / 2], near.along[part % 2]);
+        self.start[(first + from) as usize] as usize..self.start[(first + end) as usize] as usize
+    }
+
+    /// All of them.
+    pub fn ranges<'a>(&'a self, near: &'a Near) -> impl Iterator<Item = Range<usize>> + 'a {
+        (0..near.parts()).map(|part| self.range(near, part))
     }
 
     /// Where a cell of an axis is stored; nowhere, if it is beyond the particles.
@@ -149,17 +173,17 @@ impl<const D: usize> CellGrid<D> {
         }
     }
 
-    /// Where the cells up to `reach` from `middle` are stored, as ranges of rows.
+    /// Where the cells around `middle` are stored on a line, as ranges.
     #[inline(always)]
-    fn around(&self, axis: usize, middle: i64, reach: usize) -> [(usize, usize); 2] {
-        let (rows, reach) = (self.rows[axis] as i64, reach as i64);
+    fn around(&self, middle: i64) -> [(u32, u32); 2] {
+        let (rows, reach) = (self.rows[D - 1] as i64, SLICES as i64);
         let (from, end) = (middle - reach, middle + reach + 1);
-        if !self.folded[axis] {
-            return [(from.clamp(0, rows) as usize, end.clamp(0, rows) as usize), (0, 0)];
+        if !self.folded[D - 1] {
+            return [(from.clamp(0, rows) as u32, end.clamp(0, rows) as u32), (0, 0)];
         }
         let from = from.rem_euclid(rows);
         let end = from + 2 * reach + 1;
-        [(from as usize, end.min(rows) as usize), (0, (end - rows).max(0) as usize)]
+        [(from as u32, end.min(rows) as u32), (0, (end - rows).max(0) as u32)]
     }
 
     /// Chooses origin, cell size and the number of rows per axis.
@@ -175,7 +199,8 @@ impl<const D: usize> CellGrid<D> {
         let size = (radius * (1.0 + MARGIN)).max(longest / FINEST);
         self.radius = radius;
         let most = (CELLS_PER_PARTICLE * x[0].len()).clamp(FEW_CELLS, 1 << 31);
-        let sizes: [f64; D] = std::array::from_fn(|axis| size / if axis + 1 == D { SLICES as f64 } else { 1.0 });
+        let sizes: [f64; D] =
+            std::array::from_fn(|axis| size / if axis + 1 == D { SLICES as f64 } else { 1.0 });
         let wanted: [usize; D] = std::array::from_fn(|axis| (extent[axis] / sizes[axis]) as usize + 1);
         self.cells_per_metre = sizes.map(|size| 1.0 / size);
         self.rows = fold(wanted, most);
@@ -230,11 +255,7 @@ impl<const D: usize> CellGrid<D> {
     /// The cell of a point along each axis.
     #[inline(always)]
     fn cell_at(&self, point: [f64; D]) -> [i64; D] {
-        let mut cell = [0; D];
-        for axis in 0..D {
-            cell[axis] = ((point[axis] - self.origin[axis]) * self.cells_per_metre[axis]).floor() as i64;
-        }
-        cell
+        std::array::from_fn(|axis| floor((point[axis] - self.origin[axis]) * self.cells_per_metre[axis]))
     }
 
     /// Where the cell of a point is stored along each axis.
@@ -256,25 +277,21 @@ impl<const D: usize> Default for CellGrid<D> {
 impl Near {
     /// Nothing.
     pub const fn none() -> Self {
-        Self { ranges: [(0, 0); 18], len: 0 }
+        Self { lines: [0; 9], len: 0, along: [(0, 0); 2] }
     }
 
-    /// The ranges of slots.
-    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.ranges[..self.len].iter().map(|&(from, to)| from as usize..to as usize)
+    /// Number of parts, each of which is a range of slots, maybe empty: two for each line, because it may go round.
+    #[inline(always)]
+    pub const fn parts(&self) -> usize {
+        2 * self.len
     }
+}
 
-    /// Number of slots in all ranges.
-    pub fn candidates(&self) -> usize {
-        self.ranges().map(|range| range.len()).sum()
-    }
-
-    fn push(&mut self, from: u32, to: u32) {
-        if from < to {
-            self.ranges[self.len] = (from, to);
-            self.len += 1;
-        }
-    }
+/// The largest whole number that is not larger. (Without SSE 4.1 the one of the library is a call.)
+#[inline(always)]
+pub fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole - i64::from(x < whole as f64)
 }
 
 /// Least number of rows per axis.
@@ -323,9 +340,9 @@ mod tests {
     }
 
     #[test]
-    fn three_and_nine_rows_at_least_and_halving_the_longest() {
-        assert_eq!(fold([1, 1], 4), [3, 9]);
-        assert_eq!(fold([999, 19, 79], 1_400_000), [500, 20, 80]);
+    fn three_and_seventeen_rows_at_least_and_halving_the_longest() {
+        assert_eq!(fold([1, 1], 4), [3, 17]);
+        assert_eq!(fold([999, 19, 159], 2_800_000), [500, 20, 160]);
     }
 
     #[test]

@@ -19,6 +19,7 @@ mod tests;
 
 pub use adjacency::Adjacency;
 pub use error::{SearchError, check_positions};
+pub(crate) use grid::floor;
 pub use grid::{CellGrid, Near};
 pub use lattice::Lattice;
 pub use order::storage_order;

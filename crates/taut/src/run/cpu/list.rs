@@ -24,9 +24,10 @@
 //! slower. What comes next in the list is asked for ahead of time: the hardware does not see it coming (measured: twice the speed).
 
 use super::CHUNK;
-use crate::particles::{Lines, Plain};
 use crate::kernel::Kernel;
 use crate::math::{Element, Lanes, MOST_LANES, Vector, prefetch};
+use crate::neighbours::floor;
+use crate::particles::{Lines, Plain};
 use crate::pass::{ALL_WEIGHTS, Pair};
 use rayon::prelude::*;
 
@@ -57,9 +58,9 @@ pub struct PairChunk<E> {
     pub start: Vec<u32>,
     /// Neighbours, block by block.
     pub ids: Lines<u32>,
-    /// W'/r of each, without its unit.
+    /// W'/r of each, without its unit; nothing where the volume does not stand in the records.
     pub slope: Lines<f32>,
-    /// The same times V_b, where the volume does not stand in the records; then `slope` is only that of the last particle.
+    /// V_b W'/r of each; nothing where the volume stands in the records.
     pub w: Lines<E>,
     /// h/r of each.
     pub over_q: Lines<f32>,
@@ -117,11 +118,7 @@ impl<E: Plain> PairChunk<E> {
             if apart { self.slope.resize(room) } else { self.w.resize(room) }
         }
         if self.q2.len() < one {
-            let room = one + one / 4;
-            self.q2.resize(room, 0.0);
-            if !apart {
-                self.slope.resize(room);
-            }
+            self.q2.resize(one + one / 4, 0.0);
         }
     }
 }
@@ -136,7 +133,7 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
         self.column = len + MOST_LANES;
         self.places.resize(self.column * place_words::<E, D>(), E::default());
         let per_metre = 1.0 / step;
-        let steps = |x: f64| (x * per_metre).round() as i64 as u32;
+        let steps = |x: f64| floor(x * per_metre + 0.5) as u32;
         for (word, column) in self.places.chunks_exact_mut(self.column).enumerate() {
             let axes = &x[word * E::COORDINATES..D.min((word + 1) * E::COORDINATES)];
             column[..len].par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, places)| {
@@ -245,7 +242,8 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
             steps.0[axis] = tail[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
         }
         let w = self.w(first, tail);
-        let over_r = if directed { self.over_q::<V>(first) * V::of(self.units.step_over_h) } else { V::zero() };
+        let over_r =
+            if directed { self.over_q::<V>(first) * V::of(self.units.step_over_h) } else { V::zero() };
         Pair { grad_w: steps.times(w * V::of(self.units.step)), w, e: steps.times(over_r) }
     }
 }

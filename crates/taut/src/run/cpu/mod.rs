@@ -120,6 +120,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
             volume: self.store.particles().column(Quantity::Volume, 0),
             same: (how.among == Among::SameBody && !self.one_body()).then_some(self.bodies.as_slice()),
             kernel: &how.kernel,
+            per_square: 1.0 / (how.kernel.h() * how.kernel.h()),
             chunks: Shared::new(&mut chunks),
             pairs: &pairs,
         };

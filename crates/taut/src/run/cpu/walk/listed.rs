@@ -3,10 +3,10 @@
 use super::{Chunk, Spread, Sums, Then, Walk};
 use crate::field::{Record, Source};
 use crate::math::{Element, Lanes, prefetch};
+use crate::particles::Plain;
 use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
-use crate::particles::Plain;
 use crate::run::cpu::list::{PairList, Weights, tail_words};
 use crate::run::cpu::places::Span;
 
@@ -91,7 +91,10 @@ impl<P: PairSum<D>, E: Element + Plain, const D: usize> Walk<E> for Listed<'_, P
                 rows.lane = lane;
                 self.then.fetch(first + K::Point::N, (lane, K::Point::N));
                 for line in (0..stride::<P::Reads, E, D>() * size_of::<E>()).step_by(64) {
-                    let at = self.records.as_ptr().wrapping_add((first + lane + AHEAD) * stride::<P::Reads, E, D>());
+                    let at = self
+                        .records
+                        .as_ptr()
+                        .wrapping_add((first + lane + AHEAD) * stride::<P::Reads, E, D>());
                     prefetch(at.wrapping_byte_add(line));
                 }
                 self.gather((first + lane, first + lane - chunk.first), &weights, &mut rows);

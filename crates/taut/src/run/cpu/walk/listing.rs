@@ -4,8 +4,8 @@ use super::{Chunk, Walk};
 use crate::kernel::Kernel;
 use crate::math::{Element, Lanes, MOST_LANES};
 use crate::neighbours::{CellGrid, Near};
-use crate::run::cpu::kit::Kit;
 use crate::particles::Plain;
+use crate::run::cpu::kit::Kit;
 use crate::run::cpu::list::{PairChunk, volume_apart};
 use crate::run::cpu::places::Shared;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -19,6 +19,8 @@ pub struct Listing<'a, E, const D: usize> {
     /// Only pairs of equal tag, if there are tags.
     pub same: Option<&'a [u32]>,
     pub kernel: &'a Kernel,
+    /// 1/h^2, m^-2.
+    pub per_square: f64,
     pub chunks: Shared<PairChunk<E>>,
     /// All pairs so far.
     pub pairs: &'a AtomicU64,
@@ -36,14 +38,22 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         near: &Near,
         (first, list): (usize, &mut PairChunk<E>),
     ) -> usize {
-        let own = self.x.map(|column| U::of(column[a]));
+        let mut own = [U::zero(); D];
+        for axis in 0..D {
+            own[axis] = U::of(self.x[axis][a]);
+        }
         let square = U::of(self.grid.radius() * self.grid.radius());
-        let per_square = U::of(1.0 / (self.kernel.h() * self.kernel.h()));
+        let per_square = U::of(self.per_square);
         let (slots, positions) = (self.grid.ids(), self.grid.positions());
-        let (ids, squares) = (&mut list.ids[first..], &mut list.q2);
-        debug_assert!(ids.len().min(squares.len()) >= near.candidates() + MOST_LANES);
         let mut found = 0;
-        for range in near.ranges() {
+        for part in 0..near.parts() {
+            let range = self.grid.range(near, part);
+            if range.is_empty() {
+                continue;
+            }
+            let most = found + range.len() + 3 * MOST_LANES;
+            list.room((first + most, most), volume_apart::<E, D>());
+            let (ids, squares) = (&mut list.ids[first..], &mut list.q2);
             for slot in range.clone().step_by(U::N) {
                 let mut r2 = U::zero();
                 for axis in 0..D {
@@ -89,22 +99,28 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
     ) {
         list.ids[first + found..first + len].fill(a as u32);
         list.q2[found..len].fill(0.0);
-        let slopes = if volume_apart::<E, D>() { first } else { 0 };
-        debug_assert!(slopes + len + W::N <= list.slope.len() && first + len + W::N <= list.over_q.len());
+        let steepness = self.kernel.steepness();
         for at in (0..len).step_by(W::N) {
             // SAFETY: there is room for `len` numbers and the lanes of one more load or store.
-            unsafe {
+            let slope = unsafe {
                 let q = W::load(list.q2.as_ptr().add(at)).sqrt();
                 let over_q = W::select(W::zero().lt(q), W::one() / q, W::zero());
-                (self.kernel.slope(q) * over_q).store(list.slope.as_mut_ptr().add(slopes + at));
                 over_q.store(list.over_q.as_mut_ptr().add(first + at));
+                self.kernel.slope(q) * over_q
+            };
+            if volume_apart::<E, D>() {
+                // SAFETY: as above.
+                unsafe { slope.store(list.slope.as_mut_ptr().add(first + at)) };
+                continue;
             }
-        }
-        if !volume_apart::<E, D>() {
-            let steepness = self.kernel.steepness();
-            let pairs = list.ids[first..first + len].iter().zip(&list.slope[..len]);
-            for (w, (&b, &slope)) in list.w[first..first + len].iter_mut().zip(pairs) {
-                *w = E::from_f64(f64::from(slope) * (self.volume[b as usize] * steepness));
+            let mut slopes = [0.0; MOST_LANES];
+            // SAFETY: room for any lanes.
+            unsafe { slope.store(slopes.as_mut_ptr()) };
+            let block = first + at..first + at + W::N;
+            let (ids, weights) = (&list.ids[block.clone()], &mut list.w[block]);
+            // Behind the last block stand particles of an earlier list: of no use, but particles.
+            for l in 0..W::N {
+                weights[l] = E::from_f64(f64::from(slopes[l]) * (self.volume[ids[l] as usize] * steepness));
             }
         }
     }
@@ -118,16 +134,21 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
         list.start.clear();
         list.start.push(0);
         list.pairs = 0;
+        if self.pairs.load(Ordering::Relaxed) > MOST_PAIRS {
+            return;
+        }
         let lanes = K::Listed::N;
-        let (mut first, mut cell, mut near) = (0, None, Near::none());
+        let (mut first, mut line, mut near) = (0, None, Near::none());
         for a in chunk.first..chunk.end {
-            // Neighbours in the order of particles mostly share their cell.
-            if cell != Some(self.grid.cell_of(a)) {
-                cell = Some(self.grid.cell_of(a));
+            // Neighbours in the order of particles mostly share their line of cells.
+            let (own_line, cell) = self.grid.cell_of(a);
+            if line == Some(own_line) {
+                self.grid.slide(&mut near, cell);
+            } else {
+                line = Some(own_line);
                 near = self.grid.near(self.x.map(|column| column[a]));
             }
-            let most = near.candidates() + 2 * MOST_LANES;
-            list.room((first + most, most), volume_apart::<E, D>());
+            list.room((first + 3 * MOST_LANES, 3 * MOST_LANES), volume_apart::<E, D>());
             let found = self.find::<K::Point>(a, &near, (first, list));
             let found = self.sift(a, found, (first, list));
             let len = found.next_multiple_of(lanes);
@@ -135,9 +156,7 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
             first += len;
             list.start.push((first / lanes) as u32);
             list.pairs += found as u64;
-            if self.pairs.fetch_add(found as u64, Ordering::Relaxed) > MOST_PAIRS {
-                break;
-            }
         }
+        self.pairs.fetch_add(list.pairs, Ordering::Relaxed);
     }
 }
