@@ -88,8 +88,11 @@ impl<const D: usize> CellGrid<D> {
     pub fn build(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
         let n = error::particles(x)?;
         error::radius(radius)?;
-        error::check_positions(x)?;
-        self.shape(x, radius);
+        let ranges = x.map(range);
+        if ranges.iter().any(|&(low, high)| !(-error::LARGEST <= low && high <= error::LARGEST)) {
+            error::check_positions(x)?;
+        }
+        self.shape((ranges, n), radius);
         self.assign(x, n);
         self.sort(x, n);
         Ok(())
@@ -187,18 +190,13 @@ impl<const D: usize> CellGrid<D> {
     }
 
     /// Chooses origin, cell size and the number of rows per axis.
-    fn shape(&mut self, x: [&[f64]; D], radius: f64) {
-        let mut extent = [0.0; D];
-        for axis in 0..D {
-            let low = x[axis].iter().copied().fold(f64::INFINITY, f64::min);
-            let high = x[axis].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            self.origin[axis] = if low.is_finite() { low } else { 0.0 };
-            extent[axis] = (high - low).max(0.0);
-        }
+    fn shape(&mut self, (ranges, n): ([(f64, f64); D], usize), radius: f64) {
+        self.origin = ranges.map(|(low, _)| if low.is_finite() { low } else { 0.0 });
+        let extent = ranges.map(|(low, high)| (high - low).max(0.0));
         let longest = extent.iter().copied().fold(0.0, f64::max);
         let size = (radius * (1.0 + MARGIN)).max(longest / FINEST);
         self.radius = radius;
-        let most = (CELLS_PER_PARTICLE * x[0].len()).clamp(FEW_CELLS, 1 << 31);
+        let most = (CELLS_PER_PARTICLE * n).clamp(FEW_CELLS, 1 << 31);
         let sizes: [f64; D] =
             std::array::from_fn(|axis| size / if axis + 1 == D { SLICES as f64 } else { 1.0 });
         let wanted: [usize; D] = std::array::from_fn(|axis| (extent[axis] / sizes[axis]) as usize + 1);
@@ -292,6 +290,35 @@ impl Near {
 pub fn floor(x: f64) -> i64 {
     let whole = x as i64;
     whole - i64::from(x < whole as f64)
+}
+
+/// Smallest and largest number of a column; NaN if one of them is; none gives infinities the wrong way round.
+fn range(column: &[f64]) -> (f64, f64) {
+    let join =
+        |a: (f64, f64), b: (f64, f64)| (if b.0 < a.0 { b.0 } else { a.0 }, if b.1 > a.1 { b.1 } else { a.1 });
+    let chunk = |column: &[f64]| {
+        // Side by side, so that the compiler can use lanes. Zero times what is no number is none either.
+        let (mut ranges, mut nought) = ([(f64::INFINITY, f64::NEG_INFINITY); 8], [0.0; 8]);
+        for group in column.chunks(8) {
+            for (l, &x) in group.iter().enumerate() {
+                ranges[l] = join(ranges[l], (x, x));
+                nought[l] += 0.0 * x;
+            }
+        }
+        let (low, high) = ranges.into_iter().fold(ranges[0], join);
+        let nought: f64 = nought.into_iter().sum();
+        (low + nought, high + nought)
+    };
+    let none = || (f64::INFINITY, f64::NEG_INFINITY);
+    column.par_chunks(CHUNK).map(chunk).reduce(none, |a, b| {
+        if a.0.is_nan() {
+            a
+        } else if b.0.is_nan() {
+            b
+        } else {
+            join(a, b)
+        }
+    })
 }
 
 /// Least number of rows per axis.

@@ -178,17 +178,22 @@ impl Lanes for F64x8 {
     unsafe fn transposed(from: impl Fn(usize) -> *const f64) -> [Self; 4] {
         // SAFETY: the caller vouches for four doubles behind each address.
         unsafe {
+            // Records l and l + 2 share a register, so that quarters of the unpacked ones only need to be put in order.
             macro_rules! both {
                 ($l:literal) => {{
                     let low = _mm512_castpd256_pd512(_mm256_loadu_pd(from($l)));
-                    _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from($l + 4)))
+                    _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from($l + 2)))
                 }};
             }
-            let (a, b, c, d) = (both!(0), both!(1), both!(2), both!(3));
+            let (a, b, c, d) = (both!(0), both!(1), both!(4), both!(5));
             let (ab, cd) = (_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d));
             let (ab2, cd2) = (_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d));
-            let [first, second] = [Self(ab).halves(Self(cd)), Self(ab2).halves(Self(cd2))];
-            [first.0, second.0, first.1, second.1]
+            [
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(ab, cd)),
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(ab2, cd2)),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(ab, cd)),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(ab2, cd2)),
+            ]
         }
     }
     #[inline(always)]

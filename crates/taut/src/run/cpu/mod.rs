@@ -22,7 +22,7 @@ use crate::pass::{Now, PairSum, Reduce, Update};
 use homes::Homes;
 
 use list::PairList;
-use places::{PairPlaces, Shared};
+use places::{Fetching, PairPlaces, Shared};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::atomic::AtomicU64;
@@ -134,8 +134,8 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn lattice(&self, how: &Relist) -> Result<Option<Stencil<D>>, SearchError> {
         let particles = self.store.particles();
         let volume = particles.column(Quantity::Volume, 0);
-        let equal = volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
-        if how.positions != Quantity::ReferencePosition || !equal || !self.one_body() {
+        let equal = || volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
+        if how.positions != Quantity::ReferencePosition || !self.one_body() || !equal() {
             return Ok(None);
         }
         let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
@@ -222,9 +222,11 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
 
     fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {
         self.store.settle(Quantity::Volume);
-        let particles = self.store.particles();
         self.bodies.clear();
-        self.bodies.extend(particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
+        if how.among == Among::SameBody || how.positions == Quantity::ReferencePosition {
+            let bodies = self.store.particles().column(Quantity::Body, 0);
+            self.bodies.extend(bodies.iter().map(|&b| b as u32));
+        }
         self.stencil = self.lattice(how)?;
         self.homes.forget();
         if self.stencil.is_none() { self.search(how) } else { Ok(()) }
@@ -243,7 +245,8 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
         let reads = self.store.places::<U::Reads>(|field| homes.is_some_and(|h| h.shares(field)));
         let writes = self.store.places::<U::Writes>(|_| false);
         let updating = Updating { then, reads: &reads, writes: &writes, now };
-        let after = Then::new::<P, U, D>(&updating, self.set);
+        let fetching = Fetching::of([&reads, &writes]);
+        let after = Then::new::<P, U, D>(&updating, &fetching, self.set);
         match self.stencil.take() {
             Some(stencil) => {
                 self.stencilled(&stencil, (sum, after, U::Writes::FIELDS), now);

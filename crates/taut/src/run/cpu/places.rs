@@ -175,17 +175,44 @@ impl Places {
         }
         Self { columns, len: k }
     }
+}
+
+/// Columns that are asked for ahead of time.
+#[derive(Debug)]
+pub struct Fetching {
+    /// Where each starts, and how long a number is.
+    columns: [(*const u8, usize); 4 * MAX_WORDS],
+    len: usize,
+}
+
+// SAFETY: addresses of what is only asked for, never read.
+unsafe impl Sync for Fetching {}
+
+impl Fetching {
+    /// The columns of these records, single ones and double ones.
+    pub fn of(records: [&Places; 2]) -> Self {
+        let mut new = Self { columns: [(std::ptr::null(), 0); 4 * MAX_WORDS], len: 0 };
+        for column in records.iter().flat_map(|record| &record.columns[..record.len]) {
+            let double = (column.double.cast_const().cast::<u8>(), size_of::<f64>());
+            let single = (column.single.cast_const().cast::<u8>(), size_of::<f32>());
+            for one in [double, single] {
+                if !one.0.is_null() {
+                    new.columns[new.len] = one;
+                    new.len += 1;
+                }
+            }
+        }
+        new
+    }
 
     /// Asks for the numbers of particle `a`, and of those in the same cache lines, in part `part` of `parts` of the columns.
     #[inline(always)]
     pub fn fetch(&self, a: usize, (part, parts): (usize, usize)) {
-        for column in self.columns[..self.len].iter().skip(part).step_by(parts) {
-            if !column.double.is_null() {
-                prefetch(column.double.wrapping_add(a));
-            }
-            if !column.single.is_null() {
-                prefetch(column.single.wrapping_add(a));
-            }
+        let mut k = part;
+        while k < self.len {
+            let (start, size) = self.columns[k];
+            prefetch(start.wrapping_add(a * size));
+            k += parts;
         }
     }
 }

@@ -13,7 +13,7 @@ pub use points::{Each, Fold};
 pub use stencilled::Stencilled;
 
 use super::kit::{InstructionSet, Kit, Precision};
-use super::places::{Places, Some, Span};
+use super::places::{Fetching, Places, Some, Span};
 use crate::field::{Record, Sink, Source};
 use crate::math::{Lanes, MOST_LANES};
 use crate::pass::{Now, Update};
@@ -181,8 +181,7 @@ impl<U> Updating<'_, U> {
 /// one for a block of particles.
 #[derive(Clone, Copy)]
 pub struct Then<'a> {
-    reads: &'a Places,
-    writes: &'a Places,
+    fetching: &'a Fetching,
     updating: *const (),
     call: unsafe fn(*const (), Span, &Sums),
 }
@@ -196,6 +195,7 @@ impl<'a> Then<'a> {
     /// The update in the lanes of an instruction set.
     pub fn new<P: Precision, U: Update<D>, const D: usize>(
         updating: &'a Updating<'a, U>,
+        fetching: &'a Fetching,
         set: InstructionSet,
     ) -> Self {
         let call = match set {
@@ -207,16 +207,14 @@ impl<'a> Then<'a> {
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx512 => call_avx512::<P::Avx512, U, D>,
         };
-        let (reads, writes) = (updating.reads, updating.writes);
-        Self { reads, writes, updating: std::ptr::from_ref(updating).cast(), call }
+        Self { fetching, updating: std::ptr::from_ref(updating).cast(), call }
     }
 
     /// Asks for what an update of particle `a` reads and writes, a part of it at a time: these are dozens of columns, too many for the
     /// hardware to see them coming.
     #[inline(always)]
     pub fn fetch(&self, a: usize, part: (usize, usize)) {
-        self.reads.fetch(a, part);
-        self.writes.fetch(a, part);
+        self.fetching.fetch(a, part);
     }
 
     /// Updates particles whose sums are in `sums`.
