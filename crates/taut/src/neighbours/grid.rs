@@ -86,6 +86,16 @@ impl<const D: usize> CellGrid<D> {
     /// A coordinate or radius that is not a usable number, columns of unequal length, 2^32 particles or more.
     /// The grid then keeps what it held.
     pub fn build(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
+        self.bin(x, radius)?;
+        self.gather(x);
+        Ok(())
+    }
+
+    /// The same, but [`CellGrid::positions`] are not to be asked for.
+    ///
+    /// # Errors
+    /// As [`CellGrid::build`].
+    pub fn bin(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
         let n = error::particles(x)?;
         error::radius(radius)?;
         let ranges = x.map(range);
@@ -94,7 +104,7 @@ impl<const D: usize> CellGrid<D> {
         }
         self.shape((ranges, n), radius);
         self.assign(x, n);
-        self.sort(x, n);
+        self.sort(n);
         Ok(())
     }
 
@@ -120,9 +130,14 @@ impl<const D: usize> CellGrid<D> {
         &self.id[..self.cell.len()]
     }
 
-    /// The position in each slot, as columns in m; behind each stand as many readable numbers as any type has lanes.
+    /// The position in each slot, as columns in m.
     pub fn positions(&self) -> [&[f64]; D] {
-        std::array::from_fn(|axis| &self.x[axis][..self.cell.len()])
+        std::array::from_fn(|axis| self.x[axis].as_slice())
+    }
+
+    /// Whether cells far apart may share a place.
+    pub fn is_folded(&self) -> bool {
+        self.folded.contains(&true)
     }
 
     /// The cells that hold everything within the radius of `point` (m).
@@ -221,7 +236,7 @@ impl<const D: usize> CellGrid<D> {
 
     /// Counting sort by cell. Counts stand two places ahead, so that each entry of `start`, advanced by one per
     /// particle placed, ends up as the start of the cell it belongs to.
-    fn sort(&mut self, x: [&[f64]; D], n: usize) {
+    fn sort(&mut self, n: usize) {
         self.start.clear();
         self.start.resize(self.cells() + 2, 0);
         for &cell in &self.cell {
@@ -239,9 +254,13 @@ impl<const D: usize> CellGrid<D> {
             self.id[*next as usize] = a as u32;
             *next += 1;
         }
+    }
+
+    /// Copies the positions into the order of the slots.
+    fn gather(&mut self, x: [&[f64]; D]) {
         for (sorted, column) in self.x.iter_mut().zip(x) {
-            sorted.resize(n + MOST_LANES, 0.0);
-            let slots = sorted.par_chunks_mut(CHUNK).zip(self.id[..n].par_chunks(CHUNK));
+            sorted.resize(column.len(), 0.0);
+            let slots = sorted.par_chunks_mut(CHUNK).zip(self.id[..column.len()].par_chunks(CHUNK));
             slots.for_each(|(sorted, ids)| {
                 for (x, &a) in sorted.iter_mut().zip(ids) {
                     *x = column[a as usize];

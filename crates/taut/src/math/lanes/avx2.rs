@@ -153,6 +153,21 @@ static PACKED: [[u8; 16]; 16] = {
     table
 };
 
+/// Writes those of four floats whose bits are set, and the whole numbers behind `ids` that belong to them, one after the other.
+///
+/// # Safety
+/// AVX2 is there; four numbers stand, or have room, behind each address.
+#[inline(always)]
+unsafe fn pack_four(bits: u32, (x, ids): (__m128, *const u32), (to, to_ids): (*mut f32, *mut u32)) {
+    let order = PACKED[bits as usize & 15].as_ptr();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let order = _mm_loadu_si128(order.cast());
+        _mm_storeu_si128(to.cast(), _mm_shuffle_epi8(_mm_castps_si128(x), order));
+        _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), order));
+    }
+}
+
 impl Lanes for F64x4 {
     type E = f64;
     const N: usize = 4;
@@ -227,15 +242,9 @@ impl Lanes for F64x4 {
         }
     }
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
-        let order = PACKED[bits as usize & 15].as_ptr();
+    unsafe fn compress(self, bits: u32, ids: *const u32, to: (*mut f32, *mut u32)) {
         // SAFETY: the caller vouches for four numbers behind each address.
-        unsafe {
-            let order = _mm_loadu_si128(order.cast());
-            let packed = _mm_shuffle_epi8(_mm_castps_si128(_mm256_cvtpd_ps(self.0)), order);
-            _mm_storeu_si128(to.cast(), packed);
-            _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), order));
-        }
+        unsafe { pack_four(bits, (_mm256_cvtpd_ps(self.0), ids), to) }
     }
     #[inline(always)]
     fn bits(mask: __m256d) -> u32 {
@@ -321,6 +330,16 @@ impl Lanes for F32x8 {
     fn totals(rows: &[Self], to: &mut [f64]) {
         for (rows, to) in rows.chunks_exact(4).zip(to.chunks_exact_mut(4)) {
             F64x4::totals(&[rows[0].folded(), rows[1].folded(), rows[2].folded(), rows[3].folded()], to);
+        }
+    }
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        // SAFETY: the caller vouches for eight numbers behind each address; no more than four are packed from the first half.
+        unsafe {
+            let found = (bits & 15).count_ones() as usize;
+            pack_four(bits & 15, (_mm256_castps256_ps128(self.0), ids), (to, to_ids));
+            let high = _mm256_extractf128_ps::<1>(self.0);
+            pack_four(bits >> 4, (high, ids.add(4)), (to.add(found), to_ids.add(found)));
         }
     }
     #[inline(always)]

@@ -322,6 +322,15 @@ impl Lanes for F32x16 {
         u32::from(mask)
     }
     #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        // SAFETY: the caller vouches for sixteen numbers behind each address.
+        unsafe {
+            _mm512_storeu_ps(to, _mm512_maskz_compress_ps(bits as u16, self.0));
+            let packed = _mm512_maskz_compress_epi32(bits as u16, _mm512_loadu_si512(ids.cast()));
+            _mm512_storeu_si512(to_ids.cast(), packed);
+        }
+    }
+    #[inline(always)]
     fn steps_from(self, _: usize, own: u32) -> Self {
         // SAFETY: AVX-512 is there (see module).
         unsafe {

@@ -34,7 +34,7 @@ use rayon::prelude::*;
 /// Blocks between the one at work and the one asked for.
 const AHEAD: usize = 16;
 /// Steps of the fine grid in the support of the kernel.
-const STEPS: f64 = (1_u32 << 30) as f64;
+pub const STEPS: f64 = (1_u32 << 30) as f64;
 
 /// Numbers that hold the place of a particle.
 pub const fn place_words<E: Element, const D: usize>() -> usize {
@@ -151,6 +151,13 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
     /// The columns of places.
     pub fn places(&mut self) -> impl Iterator<Item = *mut E> {
         self.places.chunks_exact_mut(self.column.max(1)).map(|column| column.as_mut_ptr())
+    }
+
+    /// The coordinates of a particle on the fine grid.
+    #[inline(always)]
+    pub fn place(&self, a: usize) -> [u32; D] {
+        let word = |axis: usize| self.places[axis / E::COORDINATES * self.column + a];
+        std::array::from_fn(|axis| word(axis).coordinate(axis % E::COORDINATES))
     }
 
     /// Pairs, each counted from both sides.

@@ -8,6 +8,7 @@ mod homes;
 mod kit;
 mod list;
 mod places;
+mod slots;
 mod stencil;
 mod store;
 mod walk;
@@ -24,6 +25,7 @@ use homes::Homes;
 use list::PairList;
 use places::{Fetching, PairPlaces, Shared};
 use rayon::prelude::*;
+use slots::Slots;
 use std::marker::PhantomData;
 use std::sync::atomic::AtomicU64;
 use stencil::Stencil;
@@ -39,6 +41,7 @@ pub struct Cpu<const D: usize, P: Precision = Double> {
     store: Store<D, P>,
     set: InstructionSet,
     grid: CellGrid<D>,
+    slots: Slots<D>,
     list: PairList<P::E, D>,
     stencil: Option<Stencil<D>>,
     homes: Homes,
@@ -71,6 +74,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
             store: Store::new(particles),
             set,
             grid: CellGrid::new(),
+            slots: Slots::default(),
             list: PairList::default(),
             stencil: None,
             homes: Homes::default(),
@@ -110,17 +114,19 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     /// Makes the list of pairs.
     fn search(&mut self, how: &Relist) -> Result<(), SearchError> {
         let x = self.store.particles().vector(how.positions);
-        self.grid.build(x, how.kernel.support())?;
+        self.grid.bin(x, how.kernel.support())?;
         self.list.prepare(x, &how.kernel);
         let mut chunks = std::mem::take(&mut self.list.chunks);
-        let pairs = AtomicU64::new(0);
+        let (list, pairs) = (&self.list, AtomicU64::new(0));
+        self.slots.fill(self.grid.ids(), |a| list.place(a));
         let listing = walk::Listing {
             grid: &self.grid,
             x,
             volume: self.store.particles().column(Quantity::Volume, 0),
             same: (how.among == Among::SameBody && !self.one_body()).then_some(self.bodies.as_slice()),
             kernel: &how.kernel,
-            per_square: 1.0 / (how.kernel.h() * how.kernel.h()),
+            slots: &self.slots,
+            list,
             chunks: Shared::new(&mut chunks),
             pairs: &pairs,
         };

@@ -6,8 +6,9 @@ use crate::math::{Element, Lanes, MOST_LANES};
 use crate::neighbours::{CellGrid, Near};
 use crate::particles::Plain;
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::list::{PairChunk, volume_apart};
+use crate::run::cpu::list::{PairChunk, PairList, STEPS, volume_apart};
 use crate::run::cpu::places::Shared;
+use crate::run::cpu::slots::Slots;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Finds the pairs of every chunk.
@@ -19,8 +20,9 @@ pub struct Listing<'a, E, const D: usize> {
     /// Only pairs of equal tag, if there are tags.
     pub same: Option<&'a [u32]>,
     pub kernel: &'a Kernel,
-    /// 1/h^2, m^-2.
-    pub per_square: f64,
+    /// Where the particles are on the fine grid of the list: by slot, and by particle.
+    pub slots: &'a Slots<D>,
+    pub list: &'a PairList<E, D>,
     pub chunks: Shared<PairChunk<E>>,
     /// All pairs so far.
     pub pairs: &'a AtomicU64,
@@ -32,19 +34,16 @@ pub const MOST_PAIRS: u64 = u32::MAX as u64;
 impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
     /// Writes the neighbours of `a` among `near` into the list, from number `first` on; returns how many.
     #[inline(always)]
-    fn find<U: Lanes<E = f64>>(
+    fn find<W: Lanes<E = f32>>(
         &self,
         a: usize,
         near: &Near,
         (first, list): (usize, &mut PairChunk<E>),
     ) -> usize {
-        let mut own = [U::zero(); D];
-        for axis in 0..D {
-            own[axis] = U::of(self.x[axis][a]);
-        }
-        let square = U::of(self.grid.radius() * self.grid.radius());
-        let per_square = U::of(self.per_square);
-        let (slots, positions) = (self.grid.ids(), self.grid.positions());
+        let own = self.list.place(a);
+        let reach = self.kernel.support() / self.kernel.h();
+        let (square, per_square) = (W::of(STEPS * STEPS), W::of((reach / STEPS).powi(2)));
+        let slots = self.grid.ids();
         let mut found = 0;
         for part in 0..near.parts() {
             let range = self.grid.range(near, part);
@@ -54,17 +53,16 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
             let most = found + range.len() + 3 * MOST_LANES;
             list.room((first + most, most), volume_apart::<E, D>());
             let (ids, squares) = (&mut list.ids[first..], &mut list.q2);
-            for slot in range.clone().step_by(U::N) {
-                let mut r2 = U::zero();
+            for slot in range.clone().step_by(W::N) {
+                let mut r2 = W::zero();
                 for axis in 0..D {
-                    // SAFETY: the grid keeps readable numbers behind its last slot.
-                    let x = unsafe { U::load(positions[axis].as_ptr().add(slot)) };
-                    let step = own[axis] - x;
-                    r2 = step.mul_add(step, r2);
+                    // SAFETY: the slots of a range exist, and numbers behind the last are readable.
+                    let steps = unsafe { W::load(self.slots.from(axis, slot)).steps_from(0, own[axis]) };
+                    r2 = steps.mul_add(steps, r2);
                 }
-                let left = (range.end - slot).min(U::N);
+                let left = (range.end - slot).min(W::N);
                 // Not itself; nor what lies on the same spot, which would have no direction and no force.
-                let bits = U::bits(r2.lt(square)) & U::bits(U::zero().lt(r2)) & (u32::MAX >> (32 - left));
+                let bits = W::bits(r2.lt(square)) & W::bits(W::zero().lt(r2)) & (u32::MAX >> (32 - left));
                 // SAFETY: the grid keeps readable ids behind its last slot; no more are found than are candidates, and there is
                 // room for those and the lanes of one more.
                 unsafe {
@@ -77,13 +75,20 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         found
     }
 
-    /// Leaves only neighbours with the tag of `a`, if there are tags.
+    /// Leaves only neighbours with the tag of `a`, if there are tags; and none that only share the place of a cell: coordinates count modulo
+    /// four supports.
     fn sift(&self, a: usize, found: usize, (first, list): (usize, &mut PairChunk<E>)) -> usize {
-        let Some(tag) = self.same else { return found };
+        let folded = self.grid.is_folded();
+        if self.same.is_none() && !folded {
+            return found;
+        }
         let mut left = 0;
         for k in 0..found {
-            (list.ids[first + left], list.q2[left]) = (list.ids[first + k], list.q2[k]);
-            left += usize::from(tag[a] == tag[list.ids[first + left] as usize]);
+            let b = list.ids[first + k];
+            (list.ids[first + left], list.q2[left]) = (b, list.q2[k]);
+            let alike = self.same.is_none_or(|tag| tag[a] == tag[b as usize]);
+            let close = |x: &[f64]| (x[a] - x[b as usize]).abs() < 2.0 * self.kernel.support();
+            left += usize::from(alike && (!folded || self.x.iter().all(|x| close(x))));
         }
         left
     }
@@ -149,7 +154,7 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
                 near = self.grid.near(self.x.map(|column| column[a]));
             }
             list.room((first + 3 * MOST_LANES, 3 * MOST_LANES), volume_apart::<E, D>());
-            let found = self.find::<K::Point>(a, &near, (first, list));
+            let found = self.find::<K::Search>(a, &near, (first, list));
             let found = self.sift(a, found, (first, list));
             let len = found.next_multiple_of(lanes);
             self.weigh::<K::Weight>(a, (found, len), (first, list));
