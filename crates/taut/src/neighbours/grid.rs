@@ -21,6 +21,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::error::{self, SearchError};
+use super::extent::{floor, range};
 use crate::math::MOST_LANES;
 
 /// Cells along the last axis to one along the others.
@@ -302,42 +303,6 @@ impl Near {
     pub const fn parts(&self) -> usize {
         2 * self.len
     }
-}
-
-/// The largest whole number that is not larger. (Without SSE 4.1 the one of the library is a call.)
-#[inline(always)]
-pub fn floor(x: f64) -> i64 {
-    let whole = x as i64;
-    whole - i64::from(x < whole as f64)
-}
-
-/// Smallest and largest number of a column; NaN if one of them is; none gives infinities the wrong way round.
-fn range(column: &[f64]) -> (f64, f64) {
-    let join =
-        |a: (f64, f64), b: (f64, f64)| (if b.0 < a.0 { b.0 } else { a.0 }, if b.1 > a.1 { b.1 } else { a.1 });
-    let chunk = |column: &[f64]| {
-        // Side by side, so that the compiler can use lanes. Zero times what is no number is none either.
-        let (mut ranges, mut nought) = ([(f64::INFINITY, f64::NEG_INFINITY); 8], [0.0; 8]);
-        for group in column.chunks(8) {
-            for (l, &x) in group.iter().enumerate() {
-                ranges[l] = join(ranges[l], (x, x));
-                nought[l] += 0.0 * x;
-            }
-        }
-        let (low, high) = ranges.into_iter().fold(ranges[0], join);
-        let nought: f64 = nought.into_iter().sum();
-        (low + nought, high + nought)
-    };
-    let none = || (f64::INFINITY, f64::NEG_INFINITY);
-    column.par_chunks(CHUNK).map(chunk).reduce(none, |a, b| {
-        if a.0.is_nan() {
-            a
-        } else if b.0.is_nan() {
-            b
-        } else {
-            join(a, b)
-        }
-    })
 }
 
 /// Least number of rows per axis.

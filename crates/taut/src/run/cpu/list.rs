@@ -10,7 +10,7 @@
 //! records:  | what the pass reads of particle 0 | its place | its volume | up to a multiple of four numbers | of particle 1 | ...
 //! ```
 //!
-//! The loop is bound by the memory it streams through: a list that held the gradient too (24 bytes a pair in 3D) ran at half
+//! What the loop streams through matters: a list that held the gradient too (24 bytes a pair in 3D) ran at half
 //! the speed of one with 12, and this one has 8 (12 with the direction). The distance x_ab comes from the records instead, where each
 //! is used by all neighbours: a place is D whole numbers, the position in steps of 2^-30 of the kernel's support, counted modulo 2^32.
 //! Their difference is exact, changes sign with the pair, and is 1e-9 of the support off; so `grad W V_b = w x_ab` and `e = x_ab / r`.
