@@ -189,10 +189,11 @@ pub struct Fetching {
 unsafe impl Sync for Fetching {}
 
 impl Fetching {
-    /// The columns of these records, single ones and double ones.
+    /// The columns of these records, single ones and double ones, but those that are read at the home of a block: they are near already.
     pub fn of(records: [&Places; 2]) -> Self {
         let mut new = Self { columns: [(std::ptr::null(), 0); 4 * MAX_WORDS], len: 0 };
-        for column in records.iter().flat_map(|record| &record.columns[..record.len]) {
+        let columns = records.iter().flat_map(|record| &record.columns[..record.len]);
+        for column in columns.filter(|column| !column.shared) {
             let double = (column.double.cast_const().cast::<u8>(), size_of::<f64>());
             let single = (column.single.cast_const().cast::<u8>(), size_of::<f32>());
             for one in [double, single] {
