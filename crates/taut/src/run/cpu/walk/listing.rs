@@ -93,8 +93,8 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         left
     }
 
-    /// Fills the last block with `a`, without weight, and makes the weights of all `len` numbers from `first` on; what stands behind
-    /// them, up to the lanes of `W`, is overwritten.
+    /// Fills the last block with `a`, without weight, and makes the weights of all `len` numbers from `first` on, and of more of the same up
+    /// to the lanes of `W`.
     #[inline(always)]
     fn weigh<W: Lanes<E = f32>>(
         &self,
@@ -102,11 +102,12 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         (found, len): (usize, usize),
         (first, list): (usize, &mut PairChunk<E>),
     ) {
+        let len = len.next_multiple_of(W::N);
         list.ids[first + found..first + len].fill(a as u32);
         list.q2[found..len].fill(0.0);
         let steepness = self.kernel.steepness();
         for at in (0..len).step_by(W::N) {
-            // SAFETY: there is room for `len` numbers and the lanes of one more load or store.
+            // SAFETY: there is room for `len` numbers, a multiple of the lanes.
             let slope = unsafe {
                 let q = W::load(list.q2.as_ptr().add(at)).sqrt();
                 let over_q = W::select(W::zero().lt(q), W::one() / q, W::zero());
@@ -123,7 +124,6 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
             unsafe { slope.store(slopes.as_mut_ptr()) };
             let block = first + at..first + at + W::N;
             let (ids, weights) = (&list.ids[block.clone()], &mut list.w[block]);
-            // Behind the last block stand particles of an earlier list: of no use, but particles.
             for l in 0..W::N {
                 weights[l] = E::from_f64(f64::from(slopes[l]) * (self.volume[ids[l] as usize] * steepness));
             }
