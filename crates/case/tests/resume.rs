@@ -190,7 +190,7 @@ fn same_bits(text: &str, numbers: Numbers) {
 
 #[test]
 fn total_lagrangian_bodies_go_on_bit_by_bit() {
-    for formulation in ["tl-hourglass-free", "tl-nested"] {
+    for formulation in ["tl-hourglass-free", "tl-nested", "tl-ganzenmueller"] {
         for dimension in [2, 3] {
             for bodies in [BLOCK, ROUND] {
                 same_bits(&text(formulation, dimension, bodies), Numbers::Double);
