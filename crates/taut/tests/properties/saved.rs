@@ -54,7 +54,7 @@ where
     match form {
         Form::HourglassFree => total(TotalForm::HourglassFree(Calibration::Paper)),
         Form::TotalNested => total(TotalForm::Nested),
-        Form::Ganzenmueller => total(TotalForm::Ganzenmueller(0.1)),
+        Form::Ganzenmueller => total(TotalForm::Ganzenmueller(10.0)),
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
     }
