@@ -33,7 +33,7 @@ pub use case::Case;
 pub use choices::{Axis, Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
 pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
-pub use force::{Load, LoadKind};
+pub use force::{Load, LoadKind, Site};
 pub use history::History;
 pub use load::{Boundary, Constraint, Gravity, Initial};
 pub use material::{Material, Model};
