@@ -246,25 +246,29 @@ fn measure(case: &Case, kind: &MeasureKind) -> String {
     match kind {
         MeasureKind::Probe { probe, axis, feature } => {
             let axis = ["x", "y", "z"][axis.index()];
-            let of = format!("{axis} of probe {}", case.probes[*probe].name);
-            match feature {
-                Feature::FirstCrossing => format!("when {of} first crosses zero"),
-                Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
-                Feature::Maximum => format!("the largest {of}"),
-                Feature::Minimum => format!("the smallest {of}"),
-                Feature::TurningPoint { extremum, index, .. } => {
-                    format!("{:?} number {index} of {of}", extremum).to_lowercase()
-                }
-                Feature::ValueAt { time: at } => format!("{of} at {}", time(*at)),
-            }
+            featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name))
         }
-        MeasureKind::MostTurns { probe, axis } => {
+        MeasureKind::Turns { probe, axis, feature } => {
             let axis = ["x", "y", "z"][axis.index()];
-            format!("the most turns of probe {} around the {axis} axis", case.probes[*probe].name)
+            let probe = &case.probes[*probe].name;
+            featured(feature, &format!("turns of probe {probe} around the {axis} axis"))
         }
         MeasureKind::KineticRatio => "kinetic energy at the end over that at the start".into(),
         MeasureKind::ContactStart => "when bodies first touch".into(),
         MeasureKind::ReboundSpeed { body } => format!("speed of {} at the end", case.bodies[*body].name),
+    }
+}
+
+fn featured(feature: &Feature, of: &str) -> String {
+    match feature {
+        Feature::FirstCrossing => format!("when {of} first crosses zero"),
+        Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
+        Feature::Maximum => format!("the largest {of}"),
+        Feature::Minimum => format!("the smallest {of}"),
+        Feature::TurningPoint { extremum, index, .. } => {
+            format!("{extremum:?} number {index} of {of}").to_lowercase()
+        }
+        Feature::ValueAt { time: at } => format!("{of} at {}", time(*at)),
     }
 }
 

@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::OutputError;
+use crate::limited::{LONGEST_RESULT, read_bytes};
 
 /// The directory that holds the results of one run, and of one run only.
 ///
@@ -108,7 +109,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 
 /// Reads what [`ResultDir::write_json`] wrote.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, OutputError> {
-    let text = fs::read(path).map_err(|cause| OutputError::read(path, cause))?;
+    let text = read_bytes(path, LONGEST_RESULT).map_err(|cause| OutputError::read(path, cause))?;
     serde_json::from_slice(&text).map_err(|cause| OutputError::read(path, cause))
 }
 

@@ -31,6 +31,7 @@ mod probe;
 mod series;
 mod vtp;
 
+pub mod limited;
 pub mod manifest;
 pub mod summary;
 

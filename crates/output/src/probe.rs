@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::directory::checked;
+use crate::limited::{LONGEST_RESULT, read_text};
 use crate::{OutputError, ResultDir};
 
 /// A table `probes/NAME.csv` that grows by one row per sample.
@@ -120,7 +121,7 @@ impl Table {
     /// # Errors
     /// [`OutputError::Read`] with the line, if it is no such table.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| OutputError::read(path, cause))?;
+        let text = read_text(path, LONGEST_RESULT).map_err(|cause| OutputError::read(path, cause))?;
         Self::parse(&text).map_err(|problem| OutputError::read(path, problem))
     }
 

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use output::limited::{LONGEST_TEXT, read_text};
+
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
 use super::force::Load;
@@ -75,7 +77,7 @@ impl Case {
     /// The file cannot be read, or what [`Case::parse`] refuses.
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
+        match read_text(path, LONGEST_TEXT) {
             Ok(text) => Self::parse(&name, &text, overrides),
             Err(error) => {
                 let message = format!("cannot read the case file {name}: {error}");

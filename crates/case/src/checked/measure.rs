@@ -30,12 +30,14 @@ pub enum MeasureKind {
         /// What about it.
         feature: Feature,
     },
-    /// Most turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
-    MostTurns {
+    /// Something about the turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
+    Turns {
         /// Number of the probe, which records positions.
         probe: usize,
         /// The axis.
         axis: Axis,
+        /// What about them.
+        feature: Feature,
     },
     /// Kinetic energy at the end over that at the start.
     KineticRatio,
@@ -99,6 +101,8 @@ pub(crate) enum Measured {
     TurningPoints,
     ValueAt,
     MostTurns,
+    LeastTurns,
+    TurnsAt,
     KineticRatio,
     ContactStart,
     ReboundSpeed,
@@ -121,6 +125,12 @@ impl Words for Measured {
             Self::MostTurns,
             "most turns of a probe around an axis through the origin, counted from where it starts",
         ),
+        (
+            "least-turns",
+            Self::LeastTurns,
+            "fewest turns: how far the probe goes the other way, as a negative number",
+        ),
+        ("turns-at", Self::TurnsAt, "the turns at a time"),
         ("kinetic-ratio", Self::KineticRatio, "kinetic energy at the end over that at the start"),
         ("contact-start", Self::ContactStart, "time of the first contact of two bodies"),
         ("rebound-speed", Self::ReboundSpeed, "speed of the centre of mass of a body at the end"),
@@ -137,7 +147,8 @@ impl Measured {
             Self::SecondCrossing | Self::FirstCrossing | Self::Maximum | Self::Minimum => CURVE,
             Self::TurningPoints => TURNING,
             Self::ValueAt => const { &[keys::PROBE, keys::COMPONENT, keys::TIME] },
-            Self::MostTurns => const { &[keys::PROBE, keys::AXIS] },
+            Self::MostTurns | Self::LeastTurns => const { &[keys::PROBE, keys::AXIS] },
+            Self::TurnsAt => const { &[keys::PROBE, keys::AXIS, keys::TIME] },
             Self::KineticRatio | Self::ContactStart => &[],
             Self::ReboundSpeed => const { &[keys::BODY] },
         }
@@ -170,7 +181,11 @@ impl MeasureReader<'_> {
 
     fn kind(&self, kind: Measured, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
         match kind {
-            Measured::MostTurns => self.most_turns(section),
+            Measured::MostTurns => self.turns(section, Feature::Maximum),
+            Measured::LeastTurns => self.turns(section, Feature::Minimum),
+            Measured::TurnsAt => {
+                self.turns(section, Feature::ValueAt { time: self.scope.need(section, &keys::TIME)? })
+            }
             Measured::KineticRatio => Ok(MeasureKind::KineticRatio),
             Measured::ContactStart => Ok(MeasureKind::ContactStart),
             Measured::ReboundSpeed => {
@@ -197,7 +212,7 @@ impl MeasureReader<'_> {
         })
     }
 
-    fn most_turns(&self, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
+    fn turns(&self, section: &Section<'_>, feature: Feature) -> Result<MeasureKind, Diagnostic> {
         let node = section.need(keys::PROBE.name)?;
         let probe = find(node, keys::PROBE.name, self.probes)?;
         if self.checked.get(probe).is_some_and(|p| p.quantity != Quantity::Position) {
@@ -207,7 +222,7 @@ impl MeasureReader<'_> {
         // In the plane there is one axis to go around.
         let axes = &Axis::WORDS[if self.scope.dimension == 2 { 2 } else { 0 }..];
         let axis = choice(section.need(keys::AXIS.name)?, keys::AXIS.name, axes)?;
-        Ok(MeasureKind::MostTurns { probe, axis })
+        Ok(MeasureKind::Turns { probe, axis, feature })
     }
 
     fn turning_point(&self, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {

@@ -174,7 +174,7 @@ pub(crate) mod measure {
         "probe",
         Kind::NameOf("probe"),
         Need::Optional,
-        "The probe whose curve is read; for kinds that read a curve, and for `most-turns`.",
+        "The probe whose curve is read; for kinds that read a curve, and for turns.",
     );
     pub(crate) const COMPONENT: Key = Key::new(
         "component",
@@ -204,13 +204,13 @@ pub(crate) mod measure {
         "time",
         Kind::Number(Dimension::TIME, Range::NotNegative),
         Need::Optional,
-        "When; for `value-at`.",
+        "When; for `value-at` and `turns-at`.",
     );
     pub(crate) const AXIS: Key = Key::new(
         "axis",
         Kind::Choice(Axis::choices),
         Need::Optional,
-        "The axis that the probe goes around, right-handed, through the origin; in 2D z; for `most-turns`.",
+        "The axis that the probe goes around, right-handed, through the origin; in 2D z; for turns.",
     );
     pub(crate) const BODY: Key =
         Key::new("body", Kind::NameOf("body"), Need::Optional, "The body; for `rebound-speed`.");

@@ -1,11 +1,14 @@
 //! A simulation: bodies that share one clock.
 
+// Unit tests have no use for all combinations of formulation, material, dimension and numbers, which take minutes to compile.
+#[cfg(not(test))]
 mod body;
 mod damping;
 mod particles;
 mod quasi_static;
 mod snapshot;
 
+#[cfg(not(test))]
 pub use body::{
     Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
 };
