@@ -2,7 +2,7 @@
 
 use crate::{
     Boundary, Case, Constraint, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind, March,
-    MeasureKind, Model, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, VectorField,
+    MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, VectorField,
 };
 use std::fmt::Write as _;
 
@@ -218,10 +218,11 @@ fn times(case: &Case) -> Vec<String> {
 fn recorded(case: &Case) -> Vec<String> {
     let probes = case.probes.iter().map(|p| probe(case, p));
     let measures = case.measures.iter().map(|m| format!("{}: {}", m.name, measure(case, &m.kind)));
-    let watch = case
-        .monitor
-        .zigzag
-        .map(|limit| format!("a warning if the zigzag of the particles exceeds {limit} spacings"));
+    let Monitor { zigzag, bond_min, broken, stop, .. } = case.monitor;
+    let what = if stop { "an end" } else { "a warning" };
+    let watch = std::iter::once(format!(
+        "{what} if the zigzag of the particles exceeds {zigzag} spacings, neighbours come closer than {bond_min} spacings, or more than {broken} of the bonds break"
+    ));
     probes.chain(measures).chain(watch).collect()
 }
 
@@ -230,12 +231,15 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Quantity::Displacement => "displacement",
         Quantity::Position => "position",
         Quantity::Velocity => "velocity",
+        Quantity::Reaction => "force",
+        Quantity::Moment => "moment about the origin",
     };
     let spot = match &probe.spot {
         Spot::Point(at) => {
             format!("the point {:?} m of {}", &at[..case.dimension], case.bodies[probe.body].name)
         }
         Spot::Region(region) => format!("the mean over {}", on(case, Some(probe.body), Some(region))),
+        Spot::Boundary(index) => format!("boundary {} on what it holds", case.boundaries[*index].name),
     };
     let often =
         if probe.interval == 0.0 { "every step".into() } else { format!("every {}", time(probe.interval)) };

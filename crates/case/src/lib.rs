@@ -43,7 +43,7 @@ mod units;
 mod written;
 
 pub use checked::{
-    Axis, Body, Boundary, Calibration, Case, Constraint, Damping, Elastic, Extremum, Family, Feature,
+    Axis, Body, Boundary, Calibration, Case, Constraint, Curves, Damping, Elastic, Extremum, Family, Feature,
     FieldExpression, Fill, Formulation, Gravity, History, Initial, Kernel, Load, LoadKind, March, Material,
     Measure, MeasureKind, Model, Monitor, Plane, Probe, Quantity, Scheme, ShapeSpec, Site, Spot, Statics,
     StepRule, Stepping, Time, VectorField,

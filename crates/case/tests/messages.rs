@@ -52,6 +52,16 @@ const WRONG: &[Wrong] = &[
     (PLATE, "max = [\"L\", \"H/2\"]", "max = [-1, 1]"),
     (COLUMN, "index = 1", "index = 0"),
     // Names and what goes together.
+    (PLATE, "at = [\"L\", 0]", "of = \"block\""),
+    (PLATE, "at = [\"L\", 0]", "at = [\"L\", 0]\nof = \"block\""),
+    (PLATE, "fixed = true", "name = \"wall\"\nfixed = true\n[[probe]]\nname = \"f\"\nof = \"wal\""),
+    (COLUMN, "quantity = \"position\"", "quantity = \"reaction\""),
+    (
+        PLATE,
+        "fixed = true",
+        "name = \"wall\"\nfixed = true\n[[probe]]\nname = \"f\"\nof = \"wall\"\nquantity = \"velocity\"",
+    ),
+    (COLUMN, "zigzag = \"1 %\"", "stop = \"yes\""),
     (RINGS, "ul-non-hourglass", "ul-non-hourglas"),
     (RINGS, "ul-non-hourglass", "ul-generalised"),
     (RINGS, "linear-elastic", "neo-hookean"),

@@ -53,7 +53,15 @@ fn a_short_case_has_the_documented_defaults() {
     assert_eq!(velocity(-0.01), 0.0);
     assert_eq!(velocity(0.1), 2.0 * (std::f64::consts::PI * 0.1 / (2.0 * 0.2)).sin());
     assert_eq!((case.probes[0].body, case.probes[0].interval), (0, 0.0));
-    assert_eq!(case.monitor, Monitor { zigzag: None, interval: 0.3 / 50.0 });
+    let calm = Monitor {
+        zigzag: 0.06,
+        bond_min: 0.3,
+        broken: 0.01,
+        stop: false,
+        interval: 0.3 / 50.0,
+        apart: (600, 0.3 / 10.0),
+    };
+    assert_eq!(case.monitor, calm);
     let names: Vec<&str> = case.regions.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["block", "strip"]);
 }
@@ -61,7 +69,7 @@ fn a_short_case_has_the_documented_defaults() {
 #[test]
 fn a_column_in_three_dimensions() {
     let case = parse(COLUMN).expect("right");
-    assert_eq!((case.plane, case.time.output, case.monitor.zigzag), (None, 0.05, Some(0.01)));
+    assert_eq!((case.plane, case.time.output, case.monitor.zigzag), (None, 0.05, 0.01));
     let ShapeSpec::Rotate { angle, axis, about, shape } = &case.bodies[0].shape else { panic!("a rotation") };
     assert_eq!((*angle, *axis, *about), (std::f64::consts::FRAC_PI_2, [0.0, 0.0, 1.0], [0.0; 3]));
     assert_eq!(**shape, ShapeSpec::Box { min: [-0.5, -0.5, 0.0], max: [0.5, 0.5, 6.0] });
@@ -186,7 +194,7 @@ fn overrides_reach_every_kind_of_place() {
         "material.rubber.density=1.3 g/cm^3",
     ];
     let case = parse_set(RINGS, &set).expect("right");
-    assert_eq!((case.time.end, case.spacing, case.monitor.zigzag), (0.5, 0.0005, Some(0.01)));
+    assert_eq!((case.time.end, case.spacing, case.monitor.zigzag), (0.5, 0.0005, 0.01));
     let v0 = case.parameters.iter().find(|(name, _)| name == "v0").expect("there").1;
     assert_eq!(case.bodies[0].velocity.eval([0.0; 3], 0.0), [1.0, 2.0 * v0, 0.0]);
     assert_eq!(case.bodies[1].velocity.eval([0.0; 3], 0.0), [-3.0, 0.0, 0.0]);
@@ -249,4 +257,45 @@ fn a_file_that_is_not_there_is_an_error() {
     let error = Case::read(std::path::Path::new("no/such.toml"), &Overrides::default()).expect_err("no file");
     assert!(error.to_string().contains("cannot read the case file no/such.toml"), "{error}");
     assert_eq!(error.line(&error.diagnostics[0]), None);
+}
+
+#[test]
+fn boundaries_have_names_and_probes_of_them_record_reactions() {
+    let probes = r#"
+[[boundary]]
+name = "press"
+region = "strip"
+displacement = ["free", "-0.1*t"]
+[[probe]]
+name = "wall"
+of = "press"
+[[probe]]
+name = "twist"
+of = "press"
+quantity = "moment"
+interval = "1 ms"
+[[measure]]
+name = "strongest"
+probe = "wall"
+component = "y"
+kind = "minimum"
+[[measure]]
+name = "turned"
+probe = "twist"
+component = "z"
+kind = "turning-points"
+extremum = "maximum"
+prominence = "3 N*m"
+index = 1
+"#;
+    let case = parse(&format!("{PLATE}{probes}")).expect("right");
+    let names: Vec<&str> = case.boundaries.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(names, ["boundary-1", "press"]);
+    let probe = |i: usize| (&case.probes[i].spot, case.probes[i].quantity);
+    assert_eq!(probe(1), (&Spot::Boundary(1), Quantity::Reaction));
+    assert_eq!(probe(2), (&Spot::Boundary(1), Quantity::Moment));
+    let MeasureKind::Probe { axis, .. } = case.measures[2].kind else { panic!("{:?}", case.measures) };
+    assert_eq!(axis.index(), 2, "in the plane moments have one component");
+    let case = parse_set(COLUMN, &["monitor.stop=true", "monitor.broken=0.5"]).expect("right");
+    assert!(case.monitor.stop && case.monitor.broken == 0.5);
 }

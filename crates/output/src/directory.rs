@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::OutputError;
 use crate::limited::{LONGEST_RESULT, read_bytes};
+use crate::vtp::Encoder;
+use crate::{Frame, OutputError};
 
 /// The directory that holds the results of one run, and of one run only.
 ///
@@ -60,6 +61,16 @@ impl ResultDir {
         let path = self.path.join(checked(name)?);
         write_atomically(&path, bytes)?;
         Ok(path)
+    }
+
+    /// Writes a frame by itself as the file `name` for ParaView, such as `culprit.vtp`; a file of that name is replaced.
+    ///
+    /// # Errors
+    /// [`OutputError::Inconsistent`] if an array does not fit the particles, [`OutputError::Name`], [`OutputError::Write`].
+    pub fn write_frame(&self, name: &str, frame: &Frame) -> Result<PathBuf, OutputError> {
+        frame.check()?;
+        let bytes = Encoder::default().encode(frame);
+        self.write(name, &bytes.map_err(|cause| OutputError::write(&self.path.join(name), cause))?)
     }
 
     /// Writes `value` as indented JSON; numbers that are not finite become `null`.

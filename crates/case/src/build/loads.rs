@@ -97,6 +97,7 @@ fn shares<const D: usize>(
             let surface = Surface::of(case, load, groups)?;
             Ok(surface.faces(&region).flat_map(|face| on_face(case, groups, face)).collect())
         }
+        // The reader lets no load on faces stand on a point.
         (_, Site::Point(_)) => Ok(Vec::new()),
     }
 }
@@ -213,5 +214,9 @@ impl Drive for Loading {
                 solver.write(Quantity::BodyForce, place, std::array::from_fn(|i| before[i] + more[i]));
             }
         }
+    }
+
+    fn pulls(&self, mark: &mut dyn FnMut(usize, u32)) {
+        self.base.keys().for_each(|&(g, id)| mark(g, id as u32));
     }
 }

@@ -14,12 +14,12 @@ mod surface;
 mod thickness;
 
 pub use afford::{available_memory, reckon};
-pub use observe::{Observed, ProbePoint, Watch};
+pub use observe::{ProbePoint, Watch};
 pub(crate) use shapes::bounds;
 pub(crate) use statics::increments;
 
 use crate::{Case, CaseError};
-use taut::simulation::{Damping, Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Damping, Drive, Grip, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -27,6 +27,8 @@ pub struct Built {
     pub solvers: Vec<Box<dyn Solver>>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
+    /// Who is held by each boundary.
+    pub grips: Vec<Grip>,
     /// What damps all motion.
     pub damping: Option<Box<dyn Damping>>,
     /// Where each probe reads.
@@ -73,6 +75,7 @@ where
     let loads = loads::loads(case, &mut groups, &driven.pulled())?;
     let solver = |group| solvers::solver(case, group, numbers);
     let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let grips = driven.grips(case);
     // Loads add to what the others set.
     let drives = driven.drives().into_iter().chain(loads).collect();
     let probes = observe::probes(case, &groups)?;
@@ -80,5 +83,5 @@ where
     let across = thickness::across(case, &groups);
     let warnings = doubts::warnings(case, &groups, &across);
     let damping = statics::damping(case, &groups);
-    Ok(Built { solvers, drives, damping, probes, watch, body, numbers, warnings, across })
+    Ok(Built { solvers, drives, grips, damping, probes, watch, body, numbers, warnings, across })
 }

@@ -9,15 +9,25 @@ use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
 use taut::field;
 use taut::simulation::{Point, Snapshot, Solver};
 
-/// Where a probe reads: weights of particles of one solver, by id.
-pub struct ProbePoint {
+/// Where a probe reads.
+pub enum ProbePoint {
+    /// Of particles.
+    Motion(Followed),
+    /// The force of a boundary, by its number.
+    Force(usize),
+    /// The moment of that force.
+    Moment(usize),
+}
+
+/// Particles that a probe follows: weights of particles of one solver, by id.
+pub struct Followed {
     solver: usize,
     point: MaterialPoint,
     at: [f64; 3],
     quantity: Quantity,
 }
 
-impl ProbePoint {
+impl Followed {
     /// The value now.
     #[must_use]
     pub fn value(&self, solvers: &[Box<dyn Solver>]) -> [f64; 3] {
@@ -25,7 +35,9 @@ impl ProbePoint {
         let mean = |field| self.point.value(|id| solver.read(field, solver.stored(id)));
         match self.quantity {
             Quantity::Velocity => mean(field::Quantity::Velocity),
-            Quantity::Displacement => mean(field::Quantity::Displacement),
+            Quantity::Displacement | Quantity::Reaction | Quantity::Moment => {
+                mean(field::Quantity::Displacement)
+            }
             Quantity::Position => {
                 let u = mean(field::Quantity::Displacement);
                 std::array::from_fn(|i| self.at[i] + u[i])
@@ -37,8 +49,14 @@ impl ProbePoint {
 /// The probes of a case.
 pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Vec<ProbePoint>, CaseError> {
     let probe = |probe: &crate::Probe| {
+        if let Spot::Boundary(index) = probe.spot {
+            return Ok(match probe.quantity {
+                Quantity::Moment => ProbePoint::Moment(index),
+                _ => ProbePoint::Force(index),
+            });
+        }
         let spot = match &probe.spot {
-            Spot::Point(_) => None,
+            Spot::Point(_) | Spot::Boundary(_) => None,
             Spot::Region(region) => Some(checked::<D>(case, region, probe.place)?),
         };
         let found = groups.iter().enumerate().find_map(|(g, group)| {
@@ -46,7 +64,7 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
             let mine: Vec<_> = mine.collect();
             let (point, at) = match (&probe.spot, &spot) {
                 (Spot::Region(_), Some(region)) => mean(&mine, region)?,
-                (Spot::Region(_), None) => return None,
+                (Spot::Region(_), None) | (Spot::Boundary(_), _) => return None,
                 (Spot::Point(at), _) => {
                     let stored = mine.iter().map(|(place, p)| (*place, p.x));
                     (MaterialPoint::new(stored, vector(*at), case.spacing)?, *at)
@@ -57,14 +75,14 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
         let (solver, point, at) = found.ok_or_else(|| {
             let what = match probe.spot {
                 Spot::Point(_) => "no particle within 2.6 spacings",
-                Spot::Region(_) => "no particle is in its region",
+                Spot::Region(_) | Spot::Boundary(_) => "no particle is in its region",
             };
             let message = format!("probe `{}` is not in its body: {what}", probe.name);
             let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
             let help = format!("a probe is placed in the undeformed body `{name}`");
             case.error_at(probe.place, message, Some(help))
         })?;
-        Ok(ProbePoint { solver, point, at, quantity: probe.quantity })
+        Ok(ProbePoint::Motion(Followed { solver, point, at, quantity: probe.quantity }))
     };
     case.probes.iter().map(probe).collect()
 }
@@ -81,21 +99,22 @@ fn mean<const D: usize>(mine: &[(usize, &Point<D>)], region: &Shape) -> Option<(
     Some((point, at))
 }
 
-/// What is observed of the arrangement of particles.
-pub struct Observed {
-    /// The measures of disorder.
-    pub disorder: Disorder,
-    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
-    pub gap: Option<f64>,
-}
-
 /// The measure of disorder of a case, in whatever dimension.
 pub trait Watch: Send {
-    /// Measures the positions of a snapshot, and the gap between bodies if it is wanted.
+    /// Measures the positions of a snapshot.
     ///
     /// # Errors
     /// If positions are not numbers.
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError>;
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError>;
+
+    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError>;
+
+    /// The particle with the largest zigzag in the last measurement.
+    fn most_zigzag(&self) -> Option<usize>;
 
     /// The deformation gradient of every particle, row by row: its own, or one by least squares for formulations that
     /// have none (the identity where positions are not numbers).
@@ -132,6 +151,10 @@ fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
 }
 
 impl<const D: usize> Watch for Arrangement<D> {
+    fn most_zigzag(&self) -> Option<usize> {
+        self.reference.most_zigzag()
+    }
+
     fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) {
         out.clear();
         out.extend_from_slice(&snapshot.deformation);
@@ -149,13 +172,18 @@ impl<const D: usize> Watch for Arrangement<D> {
         }
     }
 
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError> {
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
         let disorder = self.reference.measure(x)?;
         self.measured = Some(snapshot.time);
-        let gap = if gap { self.gap.smallest(x)? } else { None };
-        Ok(Observed { disorder, gap })
+        Ok(disorder)
+    }
+
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError> {
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        Ok(self.gap.smallest(x)?)
     }
 }
 

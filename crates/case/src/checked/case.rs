@@ -7,6 +7,7 @@ use output::limited::{LONGEST_TEXT, read_text};
 
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
+use super::curves;
 use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
@@ -78,7 +79,10 @@ impl Case {
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let name = path.display().to_string();
         match read_text(path, LONGEST_TEXT) {
-            Ok(text) => Self::parse(&name, &text, overrides),
+            Ok(text) => {
+                let folder = path.parent().unwrap_or(Path::new("."));
+                Self::parse(&name, &text, overrides)?.with_references(|file| curves::in_folder(folder, file))
+            }
             Err(error) => {
                 let message = format!("cannot read the case file {name}: {error}");
                 Err(CaseError::new(vec![Diagnostic::nowhere(message)], Arc::new(Sources::new(&name, ""))))
@@ -86,7 +90,8 @@ impl Case {
         }
     }
 
-    /// Checks a case given as text; `name` is what diagnostics call the file.
+    /// Checks a case given as text; `name` is what diagnostics call the file. Its reference curves are not looked for:
+    /// [`Case::with_references`].
     ///
     /// # Errors
     /// Everything that is wrong with the file or the overrides, each with its place.
@@ -109,6 +114,11 @@ impl Case {
     pub fn error_at(&self, place: Place, message: impl Into<String>, help: Option<String>) -> CaseError {
         let diagnostic = Diagnostic { help, ..Diagnostic::at(place, message) };
         CaseError::new(vec![diagnostic], Arc::clone(&self.sources))
+    }
+
+    /// Several errors at once.
+    pub(super) fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseError {
+        CaseError::new(diagnostics, Arc::clone(&self.sources))
     }
 
     /// The warnings as a person reads them, in colour when asked; the empty text when there are none.

@@ -194,7 +194,8 @@ impl MeasureReader<'_> {
             }
             _ => {
                 let probe = find(section.need(keys::PROBE.name)?, keys::PROBE.name, self.probes)?;
-                let axes = &Axis::WORDS[..self.scope.dimension];
+                let quantity = self.checked.get(probe).map_or(Quantity::Displacement, |p| p.quantity);
+                let axes = &Axis::WORDS[quantity.axes(self.scope.dimension)];
                 let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
                 Ok(MeasureKind::Probe { probe, axis, feature: self.feature(kind, probe, section)? })
             }

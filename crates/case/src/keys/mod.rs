@@ -40,6 +40,8 @@ pub enum Kind {
     NameOf(&'static str),
     /// `true`.
     True,
+    /// `true` or `false`.
+    Flag,
     /// One of these whole numbers.
     OneOf(&'static [i64]),
     /// A whole number from 1 on.

@@ -70,6 +70,7 @@ fn value(kind: &Kind) -> String {
         Kind::Name => "name",
         Kind::NameOf(part) => return format!("name of a {part}"),
         Kind::True => "`true`",
+        Kind::Flag => "`true` or `false`",
         Kind::OneOf(numbers) => {
             return numbers.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" or ");
         }

@@ -88,6 +88,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::Text => json!({ "type": "string" }),
         Kind::Name | Kind::NameOf(_) => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" }),
         Kind::True => json!({ "const": true }),
+        Kind::Flag => json!({ "type": "boolean" }),
         Kind::OneOf(numbers) => json!({ "enum": numbers }),
         Kind::Count => json!({ "type": "integer", "minimum": 1 }),
         Kind::Number(_, range) => bounded(range),

@@ -225,19 +225,37 @@ pub(crate) mod monitor {
     pub(crate) const ZIGZAG: Key = Key::new(
         "zigzag",
         Kind::Number(Dimension::NUMBER, Range::Positive),
-        Need::Default("no warning"),
-        "The run warns when the root mean square of the zigzag over the spacing is larger: zero-energy modes grow.",
+        Need::Default("0.06"),
+        "The run warns, once, when the root mean square of the zigzag over the spacing is larger: zero-energy modes grow.",
+    );
+    pub(crate) const BOND_MIN: Key = Key::new(
+        "bond_min",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("0.3"),
+        "The run warns, once, when two particles that were neighbours come closer than this many spacings.",
+    );
+    pub(crate) const BROKEN: Key = Key::new(
+        "broken",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("0.01"),
+        "The run warns, once, when a larger share of the bonds between neighbours is broken: one and a half times as long as the strain around them makes them.",
+    );
+    pub(crate) const STOP: Key = Key::new(
+        "stop",
+        Kind::Flag,
+        Need::Default("false"),
+        "Whether the run ends, with a diagnosis, where it would warn.",
     );
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output"),
-        "Time between two measurements of disorder and energies.",
+        Need::Default("as [time] output; disorder 600 steps or end/10 apart"),
+        "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {
         header: "[monitor]",
         doc: "The watch over the disorder of the particles.",
-        keys: &[ZIGZAG, INTERVAL],
-        example: "[monitor]\nzigzag = \"1 %\"",
+        keys: &[ZIGZAG, BOND_MIN, BROKEN, STOP, INTERVAL],
+        example: "[monitor]\nzigzag = \"1 %\"\nstop = true",
     };
 }

@@ -1,11 +1,12 @@
 //! Closing the books: `summary.json`.
 
 use super::convergence::Convergence;
+use super::diagnosis::Evidence;
 use super::error::RunError;
-use super::measures::Evidence;
+use super::measures;
 use super::writer::Writer;
 use crate::Case;
-use output::summary::{Balance, Energy, Failure, Momentum, Settled, Status};
+use output::summary::{Failure, Settled, Status};
 use output::{ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
@@ -19,6 +20,8 @@ pub struct Books<'a> {
     pub results: &'a ResultDir,
     /// The simulation, at its end.
     pub simulation: &'a Simulation,
+    /// Particles across the thinnest part of each body.
+    pub across: &'a [usize],
     /// What it computed with.
     pub numbers: Numbers,
     /// What was written.
@@ -47,10 +50,12 @@ impl Books<'_> {
     /// Closes the books of a run that diverged; hands back the error to report.
     ///
     /// # Errors
-    /// If the summary cannot be written.
+    /// If diagnosis or summary cannot be written.
     pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
         let quasi_static = self.settle()?;
+        let Self { case, across, simulation, writer, .. } = &self;
+        Evidence { case, across, simulation, writer, diverged: &diverged }.write(results)?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
         Summary { quasi_static, ..failed(summary, &diverged) }.write(results)?;
         Ok(RunError::Diverged { diverged: Box::new(diverged), results: results.path().to_path_buf() })
@@ -83,7 +88,7 @@ impl Books<'_> {
         let mut snapshot = Snapshot::default();
         let end = simulation.snapshot(&mut snapshot);
         let start = self.start.unwrap_or_default();
-        let evidence = Evidence {
+        let evidence = measures::Evidence {
             series: &writer.series,
             start,
             end,
@@ -99,11 +104,8 @@ impl Books<'_> {
             end_time: simulation.time(),
             wall_seconds: self.wall,
             particle_steps_per_second: n * steps as f64 / self.wall.max(1e-9),
-            energy: energy(&start, &end, writer.energies.clone()),
-            momentum: Momentum {
-                linear: Balance::new(start.momentum, end.momentum),
-                angular: Balance::new(start.angular_momentum, end.angular_momentum),
-            },
+            energy: writer.audit.energy(&start, &end),
+            momentum: writer.audit.momentum(&start, &end),
             disorder: writer.disorder.summary(),
             measured: evidence.measured(self.case),
             ..self.nothing()
@@ -129,21 +131,6 @@ fn mass(simulation: &Simulation) -> Vec<f64> {
         first += solver.len();
     }
     mass
-}
-
-fn energy(start: &Totals, end: &Totals, history: Vec<[f64; 4]>) -> Energy {
-    let initial = start.kinetic + start.strain;
-    let at_end = end.kinetic + end.strain;
-    Energy {
-        initial,
-        at_end,
-        kinetic: end.kinetic,
-        strain: end.strain,
-        dissipated: end.dissipated,
-        external_work: end.external_work,
-        residual: initial + end.external_work - end.dissipated - at_end,
-        history,
-    }
 }
 
 fn failed(summary: Summary, diverged: &Diverged) -> Summary {

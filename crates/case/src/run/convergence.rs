@@ -22,7 +22,7 @@ impl Convergence {
     pub fn create(results: &ResultDir) -> Result<Self, RunError> {
         let columns =
             [("increment", "1"), ("steps", "1"), ("force", "1"), ("motion", "1"), ("converged", "1")];
-        let table = ProbeTable::beside(results, "convergence", &columns)?;
+        let table = ProbeTable::beside_summary(results, "convergence", &columns)?;
         Ok(Self { table, increments: Vec::new(), failed: None })
     }
 

@@ -1,7 +1,7 @@
 //! Named results.
 
 use super::curves::{Curve, Point};
-use crate::{Case, Extremum, Feature, MeasureKind, Quantity};
+use crate::{Case, Extremum, Feature, MeasureKind};
 use output::summary::Measured;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -43,8 +43,7 @@ impl Evidence<'_> {
             MeasureKind::Probe { probe, axis, feature } => {
                 let series = &self.series[*probe];
                 let curve = Curve { times: &series.times, values: &series.values[axis.index()] };
-                let unit = if case.probes[*probe].quantity == Quantity::Velocity { "m/s" } else { "m" };
-                feature_of(&curve, feature, unit)
+                feature_of(&curve, feature, case.probes[*probe].quantity.unit())
             }
             MeasureKind::Turns { probe, axis, feature } => {
                 let Series { times, values } = &self.series[*probe];

@@ -1,14 +1,18 @@
 //! Running a case: the only time loop of the project.
 
+mod alarm;
+mod audit;
 mod books;
 mod contact;
 mod convergence;
 pub mod curves;
+mod diagnosis;
 mod error;
 mod frames;
 mod history;
 mod measures;
 mod memory;
+mod reactions;
 mod recorder;
 mod sheet;
 mod trial;
@@ -20,6 +24,7 @@ pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build, increments};
+use alarm::Alarm;
 use books::Books;
 use convergence::Convergence;
 use output::manifest::Machine;
@@ -28,7 +33,7 @@ use recorder::Recorder;
 use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::integrator::Diverged;
+use taut::integrator::{Cause, Diverged};
 use taut::run::InstructionSet;
 use taut::simulation::{Increment, Numbers, QuasiStatic, Simulation, Totals};
 use watcher::Watcher;
@@ -119,21 +124,23 @@ fn in_pool(
     let precision = built.numbers.name();
     Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
         .write(results)?;
-    let Built { solvers, drives, damping, probes, watch, numbers, warnings, .. } = built;
+    let Built { solvers, drives, grips, damping, probes, watch, numbers, warnings, across, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
     let mut simulation = Simulation::new(solvers, drives).damped(damping);
+    simulation.hold(grips);
     let mut convergence = increments(case).map(|_| Convergence::create(results)).transpose()?;
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
+    let alarm = writer.alarm.clone();
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
         let convergence = convergence.as_mut();
-        let march = March { case, simulation: &mut simulation, convergence, watcher, clock };
+        let march = March { case, simulation: &mut simulation, convergence, watcher, alarm: &alarm, clock };
         march.finish(Recorder::new(case, probes, outbox))
     });
     let writer = written.transpose()?;
@@ -141,7 +148,9 @@ fn in_pool(
         return Err(RunError::Writer);
     };
     let wall = clock.elapsed().as_secs_f64();
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall, convergence };
+    let across = &across;
+    let simulation = &simulation;
+    let books = Books { case, results, simulation, across, numbers, writer, start, wall, convergence };
     match stopped {
         None => books.done(),
         Some(diverged) => Err(books.diverged(diverged)?),
@@ -154,6 +163,7 @@ struct March<'a> {
     simulation: &'a mut Simulation,
     convergence: Option<&'a mut Convergence>,
     watcher: &'a Watcher<'a>,
+    alarm: &'a Alarm,
     clock: Instant,
 }
 
@@ -165,7 +175,8 @@ impl March<'_> {
         let stopped = self.steps(&mut recorder)?;
         let start = recorder.start;
         match stopped {
-            None => recorder.end(self.simulation)?,
+            // Disorder is no wrong number: the state as it stopped is as good as any.
+            None | Some(Diverged { cause: Cause::Disordered, .. }) => recorder.end(self.simulation)?,
             Some(_) => recorder.abandon(self.simulation)?,
         }
         Ok((start, stopped))
@@ -188,6 +199,9 @@ impl March<'_> {
             }
             recorder.after_step(self.simulation)?;
             self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Some(stopped));
+            }
         }
         Ok(None)
     }
@@ -212,6 +226,9 @@ impl March<'_> {
                 }
             }
             self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Some(stopped));
+            }
         }
         Ok(None)
     }

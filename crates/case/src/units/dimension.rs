@@ -26,12 +26,15 @@ impl Dimension {
     pub const PRESSURE: Self = Self::new(1, -1, -2);
     /// m/s
     pub const SPEED: Self = Self::new(0, 1, -1);
-    /// N
-    pub const FORCE: Self = Self::new(1, 1, -2);
     /// Pa s
     pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// m/s^2
     pub const ACCELERATION: Self = Self::new(0, 1, -2);
+
+    /// N (per metre of depth in 2D)
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// N m (likewise)
+    pub const MOMENT: Self = Self::new(1, 2, -2);
 
     /// From the exponents of kg, m and s.
     pub const fn new(mass: i8, length: i8, time: i8) -> Self {

@@ -98,7 +98,7 @@ glossary! {
     Position: AsVector, "x", "m";
     /// Velocity.
     Velocity: AsVector, "v", "m/s";
-    /// Acceleration.
+    /// Acceleration by all forces but those of constraints.
     Acceleration: AsVector, "a", "m/s^2";
     /// Body force per mass.
     BodyForce: AsVector, "b", "m/s^2";

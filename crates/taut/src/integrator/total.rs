@@ -1,8 +1,10 @@
 //! Position Verlet for a total Lagrangian body (TL section 3.4).
 
-use super::Solver;
-use super::limits::{Cause, Diverged, Limits, culprit};
+use super::diverged::{Check, culprit, not_finite};
+use super::limits::largest;
+use super::outside::{self, Midway};
 use super::relax::{self, Exchange, Relax, Unrest};
+use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
@@ -78,26 +80,25 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         &mut self.run
     }
 
-    fn neighbourhood(&self) -> Relist {
-        Relist { positions: Quantity::ReferencePosition, kernel: self.options.kernel, among: Among::SameBody }
-    }
-
     fn check(&mut self) -> Result<(), Diverged> {
         self.limits = Limits::with_waves(&mut self.run);
         let bound = 10.0 * self.options.bulk_speed;
         if self.limits.finite && self.limits.speed < bound {
             return Ok(());
         }
-        let not_finite = |_: usize, x: f64| !x.is_finite();
-        let fast = |_: usize, x: f64| x.is_nan() || x.abs() >= bound / (D as f64).sqrt();
+        let inverted = |_: usize, x: f64| (x == f64::INFINITY).then_some(0.0);
+        // The largest component of a vector is at least its length over sqrt(D).
+        let component = bound / (D as f64).sqrt();
+        let fast = |_: usize, x: f64| (x.abs() >= component).then_some(component);
+        let check = |field, cause, beyond| Check { field, cause, beyond };
         let found = culprit(
             &self.run,
             &[
-                (Quantity::WaveSpeedSquared, Cause::Inverted, &|_, x| x == f64::INFINITY),
-                (Quantity::Velocity, Cause::NotFinite, &not_finite),
-                (Quantity::Acceleration, Cause::NotFinite, &not_finite),
-                (Quantity::WaveSpeedSquared, Cause::NotFinite, &not_finite),
-                (Quantity::Velocity, Cause::Speed, &fast),
+                check(Quantity::WaveSpeedSquared, Cause::Inverted, &inverted),
+                check(Quantity::Velocity, Cause::NotFinite, &not_finite),
+                check(Quantity::Acceleration, Cause::NotFinite, &not_finite),
+                check(Quantity::WaveSpeedSquared, Cause::NotFinite, &not_finite),
+                check(Quantity::Velocity, Cause::Speed, &fast),
             ],
         );
         match found {
@@ -109,6 +110,26 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
             Some(diverged) => Err(diverged),
             None => Ok(()),
         }
+    }
+
+    fn wave_speed(&self) -> f64 {
+        match self.options.wave_speed {
+            WaveSpeed::Stretch if self.heavier_from.is_finite() => self.at_rest.sqrt(),
+            WaveSpeed::Stretch => self.limits.wave_speed,
+            WaveSpeed::Paper => self.options.bulk_speed,
+        }
+    }
+
+    /// The two criteria of TL Eq. (33), before the Courant number: h/(c + |v|) and sqrt(h/|a|).
+    fn steps(&self) -> [f64; 2] {
+        let h = self.options.kernel.h();
+        [h / (self.wave_speed() + self.limits.speed), (h / self.limits.acceleration).sqrt()]
+    }
+
+    /// Between `advance` and `finish` displacements stand midway in the step.
+    fn midway(&self) -> Midway<'_, D> {
+        let field = |field| outside::columns(&self.run, field);
+        Midway { base: field(Quantity::ReferencePosition), way: field(Quantity::Displacement), share: 1.0 }
     }
 
     fn determinant(&self, id: u32) -> f64 {
@@ -143,9 +164,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn start(&mut self) -> Result<(), Diverged> {
-        if self.run.relist(&self.neighbourhood()).is_err() {
-            let wrong = |_: usize, x: f64| !x.is_finite();
-            let found = culprit(&self.run, &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
+        if self.run.relist(&self.reach()).is_err() {
+            let (field, cause) = (Quantity::ReferencePosition, Cause::NotFinite);
+            let found = culprit(&self.run, &[Check { field, cause, beyond: &not_finite }]);
             return Err(found.unwrap_or_else(Diverged::unlisted));
         }
         for i in 0..D {
@@ -164,13 +185,36 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn stable_step(&self) -> f64 {
-        let h = self.options.kernel.h();
-        let c = match self.options.wave_speed {
-            WaveSpeed::Stretch if self.heavier_from.is_finite() => self.at_rest.sqrt(),
-            WaveSpeed::Stretch => self.limits.wave_speed,
-            WaveSpeed::Paper => self.options.bulk_speed,
+        let [wave, acceleration] = self.steps();
+        self.options.cfl * wave.min(acceleration)
+    }
+
+    fn bounding(&self) -> Bounding {
+        let [wave, acceleration] = self.steps();
+        Bounding {
+            criterion: if acceleration < wave { Criterion::Acceleration } else { Criterion::Wave },
+            wave_speed: self.wave_speed(),
+            speed: self.limits.speed,
+            acceleration: self.limits.acceleration,
+        }
+    }
+
+    fn at_bound(&self, bounding: &Bounding) -> Option<u32> {
+        let waves = self.options.wave_speed == WaveSpeed::Stretch && bounding.wave_speed >= bounding.speed;
+        let field = match bounding.criterion {
+            Criterion::Acceleration => Quantity::Acceleration,
+            _ if waves => Quantity::WaveSpeedSquared,
+            _ => Quantity::Velocity,
         };
-        self.options.cfl * (h / (c + self.limits.speed)).min((h / self.limits.acceleration).sqrt())
+        largest(&self.run, field)
+    }
+
+    fn reach(&self) -> Relist {
+        Relist { positions: Quantity::ReferencePosition, kernel: self.options.kernel, among: Among::SameBody }
+    }
+
+    fn fields(&self) -> &'static [Quantity] {
+        F::FIELDS
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {
@@ -185,6 +229,14 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         self.formulation.rates(&mut self.run, Now { t: now.t, dt: 0.5 * (now.dt + next) });
         self.ahead = 0.5 * next;
         Ok(())
+    }
+
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse {
+        outside::holding(&self.run, (&self.midway(), dt), held)
+    }
+
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse {
+        outside::pulling(&self.run, (&self.midway(), dt), ids)
     }
 
     fn relax(&mut self) -> Option<&mut dyn Relax> {
@@ -217,13 +269,15 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 }
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Relax for Total<D, F, R> {
-    fn exchange(&mut self, viscosity: f64, dt: f64) {
+    fn exchange(&mut self, viscosity: f64, dt: f64) -> Impulse {
+        let before = relax::momentum(&self.run);
         // Positions were checked when the body was started.
-        let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.neighbourhood()).ok());
+        let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.reach()).ok());
         self.sweeper = sweeper.map(|mut sweeper| {
             sweeper.sweep(&mut self.run, &Exchange { eta_dt: viscosity * dt });
             sweeper
         });
+        relax::momentum(&self.run) - before
     }
 
     fn rest(&mut self) {

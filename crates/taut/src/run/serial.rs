@@ -87,6 +87,11 @@ impl<const D: usize> Run<D> for Serial<D> {
         self.adjacency.mean()
     }
 
+    fn loneliest(&self) -> Option<(usize, usize)> {
+        let counts = (0..self.particles.len()).map(|a| (a, self.adjacency.of(a).len()));
+        counts.min_by_key(|&(_, count)| count)
+    }
+
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
         let mut sums = Vec::with_capacity(self.particles.len());
         let mut at = 0;

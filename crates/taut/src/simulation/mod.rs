@@ -1,25 +1,31 @@
 //! A simulation: bodies that share one clock.
 
+mod audit;
 // Unit tests have no use for all combinations of formulation, material, dimension and numbers, which take minutes to compile.
 #[cfg(not(test))]
 mod body;
 mod damping;
+mod guard;
+mod history;
 mod particles;
 mod quasi_static;
 mod snapshot;
 
+pub use audit::{Audit, Grip};
 #[cfg(not(test))]
 pub use body::{
     Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
 };
 pub use damping::{Damping, Kinetic, Splitting};
+pub use guard::{COLLAPSE, GAIN, Guard};
+pub use history::{History, Step};
 pub use particles::{Point, total, updated};
 pub use quasi_static::{Balance, Increment, Increments, QuasiStatic};
 pub use snapshot::{Snapshot, Totals};
 
 pub use crate::integrator::{Seen, Solver};
 
-use crate::integrator::Diverged;
+use crate::integrator::{Diverged, Impulse};
 use crate::pass::Now;
 use quasi_static::Load;
 
@@ -27,12 +33,18 @@ use quasi_static::Load;
 pub trait Drive: Send {
     /// Sets fields for the step that begins at `now.t` and lasts `now.dt`.
     fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>);
+
+    /// Calls `mark(solver, id)` for every particle whose body force it changes.
+    fn pulls(&self, _mark: &mut dyn FnMut(usize, u32)) {}
 }
 
 /// Bodies, what drives them, and the clock.
 pub struct Simulation {
     solvers: Vec<Box<dyn Solver>>,
     drives: Vec<Box<dyn Drive>>,
+    audit: Audit,
+    guard: Guard,
+    history: History,
     damping: Option<Box<dyn Damping>>,
     time: f64,
     dt: f64,
@@ -53,7 +65,8 @@ impl Simulation {
     /// A simulation that has yet to [`begin`](Self::begin).
     #[must_use]
     pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
-        Self { solvers, drives, damping: None, time: 0.0, dt: 0.0, steps: 0 }
+        let (audit, guard, history) = (Audit::default(), Guard::default(), History::new());
+        Self { solvers, drives, damping: None, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
     }
 
     /// The same with its motion damped.
@@ -62,23 +75,44 @@ impl Simulation {
         Self { damping, ..self }
     }
 
+    /// Names the constraints whose reactions are wanted one by one, before the start.
+    pub fn hold(&mut self, grips: Vec<Grip>) {
+        self.audit.name(grips);
+    }
+
     /// Prepares the first step; once.
     ///
     /// # Errors
     /// If the initial state is not finite. It can be looked at all the same.
     pub fn begin(&mut self) -> Result<(), Diverged> {
+        let mut first = 0;
         for solver in &mut self.solvers {
-            solver.start()?;
+            solver.start().map_err(|diverged| diverged.after(first))?;
+            first += solver.len() as u32;
         }
-        self.dt = self.stable_step();
+        self.audit.start(&self.solvers, &self.drives);
+        let (at_bound, dt) = self.stable_step();
+        self.dt = dt;
+        self.guard = Guard::start(&self.solvers, dt);
+        self.remember((at_bound, dt));
         for solver in &mut self.solvers {
             solver.begin(self.dt);
         }
         Ok(())
     }
 
-    fn stable_step(&self) -> f64 {
-        self.solvers.iter().map(|s| s.stable_step()).fold(f64::INFINITY, f64::min)
+    /// The solver that asks for the shortest step, and that step.
+    fn stable_step(&self) -> (usize, f64) {
+        let steps = self.solvers.iter().map(|s| s.stable_step()).enumerate();
+        steps.fold((0, f64::INFINITY), |least, step| if step.1 < least.1 { step } else { least })
+    }
+
+    /// Takes down the step that comes next, which a solver asked for.
+    fn remember(&mut self, (solver, dt): (usize, f64)) {
+        let Some(at_bound) = self.solvers.get(solver) else { return };
+        let bounding = at_bound.bounding();
+        let step = Step { number: self.steps + 1, time: self.time, dt, solver, bounding, particle: None };
+        self.history.note(step, at_bound.as_ref());
     }
 
     /// One step of all bodies.
@@ -137,16 +171,24 @@ impl Simulation {
             }
             Some(load) => self.drive_slowly(now.dt, load),
         };
-        for solver in &mut self.solvers {
-            solver.advance(now)?;
+        let mut first = 0;
+        for (index, solver) in self.solvers.iter_mut().enumerate() {
+            solver.advance(now).map_err(|diverged| diverged.after(first))?;
+            match load {
+                None => self.audit.advanced(index, solver.as_ref(), now.dt),
+                Some(_) => self.audit.weighed(index, solver.as_ref(), now.dt),
+            }
+            first += solver.len() as u32;
         }
         if let Some(damping) = &mut self.damping {
-            damping.damp(&mut self.solvers, now, self.steps);
+            let gave = damping.damp(&mut self.solvers, now, self.steps);
+            self.audit.damped(if load.is_none() { gave } else { Impulse::default() });
         }
         if let Some(kinetic) = kinetic {
             kinetic.damp(&mut self.solvers, now, self.steps);
         }
-        let next = self.stable_step();
+        let (at_bound, next) = self.stable_step();
+        self.guard.step(&self.solvers, (at_bound, next))?;
         for solver in &mut self.solvers {
             solver.finish(now, next)?;
         }
@@ -154,13 +196,27 @@ impl Simulation {
             load.filter(|load| passed >= load.left).map_or(self.time + passed, |load| self.time + load.left);
         self.steps += 1;
         self.dt = next;
-        Ok(())
+        self.remember((at_bound, next));
+        // Masses that are scaled, as when loads have a clock of their own, keep another energy.
+        if load.is_some() { Ok(()) } else { self.guard.look(self.steps, &self.solvers) }
     }
 
     /// The bodies.
     #[must_use]
     pub fn solvers(&self) -> &[Box<dyn Solver>] {
         &self.solvers
+    }
+
+    /// The steps that were taken last, and the one that comes next.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// What has come from outside.
+    #[must_use]
+    pub fn audit(&self) -> &Audit {
+        &self.audit
     }
 
     /// Time, s.

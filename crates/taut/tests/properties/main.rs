@@ -8,6 +8,7 @@ mod constraints;
 mod damping;
 mod divergence;
 mod energy;
+mod impulses;
 mod lanes;
 mod moduli;
 mod momentum;

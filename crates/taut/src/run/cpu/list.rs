@@ -48,6 +48,8 @@ pub struct PairChunk<E> {
     pub over_r: Lines<f32>,
     /// Pairs, without the fill.
     pub pairs: u64,
+    /// A particle with the fewest neighbours, and how many.
+    pub loneliest: (u32, u32),
     /// Squared distances of the neighbours of one particle while they are found, m^2.
     pub r2: Vec<f64>,
 }
@@ -55,7 +57,7 @@ pub struct PairChunk<E> {
 impl<E> Default for PairChunk<E> {
     fn default() -> Self {
         let (ids, w, over_r) = (Lines::default(), Lines::default(), Lines::default());
-        Self { start: Vec::new(), ids, w, over_r, pairs: 0, r2: Vec::new() }
+        Self { start: Vec::new(), ids, w, over_r, pairs: 0, loneliest: (0, u32::MAX), r2: Vec::new() }
     }
 }
 
@@ -126,6 +128,12 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
     /// Pairs, each counted from both sides.
     pub fn pairs(&self) -> u64 {
         self.chunks.iter().map(|chunk| chunk.pairs).sum()
+    }
+
+    /// The first particle with the fewest neighbours, and how many.
+    pub fn loneliest(&self) -> Option<(usize, usize)> {
+        let fewest = self.chunks.iter().map(|chunk| chunk.loneliest).min_by_key(|&(_, count)| count);
+        fewest.map(|(a, count)| (a as usize, count as usize))
     }
 
     /// The coordinates of a particle on the fine grid, from the numbers that hold them.
