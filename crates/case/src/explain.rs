@@ -2,7 +2,7 @@
 
 use crate::{
     Boundary, Case, Constraint, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind, March,
-    MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, VectorField,
+    MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, VectorField,
 };
 use std::fmt::Write as _;
 
@@ -99,10 +99,9 @@ fn body(case: &Case, index: usize) -> String {
 /// A load in words.
 fn load(case: &Case, load: &Load) -> String {
     let history = if load.history.is_some() { ", times a factor over time" } else { "" };
-    let (on, d) = match &load.spot {
-        Spot::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
-        Spot::Region(region) => (on(case, load.body, Some(region)), case.dimension),
-        Spot::Boundary(_) => (on(case, load.body, None), case.dimension),
+    let (on, d) = match &load.site {
+        Site::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
+        Site::Region(region) => (on(case, load.body, Some(region)), case.dimension),
     };
     match &load.kind {
         LoadKind::Force(field) => format!("{on} feels a total force of {} N{history}", vector(field, d)),
