@@ -43,9 +43,10 @@ mod units;
 mod written;
 
 pub use checked::{
-    Axis, Body, Boundary, Case, Constraint, Elastic, Extremum, Family, Feature, FieldExpression, Fill,
-    Formulation, Gravity, Initial, Kernel, March, Material, Measure, MeasureKind, Model, Monitor, Plane,
-    Probe, Quantity, Scheme, ShapeSpec, Spot, StepRule, Stepping, Time, VectorField,
+    Axis, Body, Boundary, Case, Constraint, Contact, Course, Elastic, Extremum, Family, Feature,
+    FieldExpression, Fill, Formulation, Gravity, Initial, Kernel, March, Material, Measure, MeasureKind,
+    Model, Monitor, Plane, Probe, Quantity, Scheme, ShapeSpec, Spot, StepRule, Stepping, Time, Tool, Turn,
+    VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use explain::explain;

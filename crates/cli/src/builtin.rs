@@ -10,13 +10,18 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../cases/tl-plate.toml")),
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
     ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
+    ("tl-punch", include_str!("../../../cases/tl-punch.toml")),
+    ("contact-hertz", include_str!("../../../cases/contact-hertz.toml")),
+    ("contact-sphere", include_str!("../../../cases/contact-sphere.toml")),
+    ("contact-bars", include_str!("../../../cases/contact-bars.toml")),
+    ("contact-incline", include_str!("../../../cases/contact-incline.toml")),
+    ("contact-fold", include_str!("../../../cases/contact-fold.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
 ];
 
 /// Benchmarks of the papers that are not there yet.
 const LATER: &[&str] = &[
-    "tl-punch",
     "tl-pull-2d",
     "tl-pull-3d",
     "tl-stent",

@@ -9,18 +9,22 @@ mod observe;
 mod shapes;
 mod solvers;
 mod thickness;
+mod touch;
 
 pub use afford::{available_memory, reckon};
 pub use observe::{Observed, ProbePoint, Watch};
 pub(crate) use shapes::bounds;
 
 use crate::{Case, CaseError};
+use taut::contact::Contact;
 use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
     /// The bodies.
     pub solvers: Vec<Box<dyn Solver>>,
+    /// What they do to each other, if they touch.
+    pub contact: Option<Contact>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
     /// Where each probe reads.
@@ -65,11 +69,14 @@ where
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
     let solver = |group| solvers::solver(case, group, numbers);
-    let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let mut solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let tools = touch::tools::<D>(case)?;
+    solvers.extend(case.tools.iter().zip(&tools).map(|(tool, points)| touch::rigid(case, tool, points)));
     let drives = driven.drives();
     let probes = observe::probes(case, &groups)?;
-    let (watch, body) = observe::disorder(case, &groups)?;
+    let (watch, body) = observe::disorder(case, (&groups, &tools))?;
     let across = thickness::across(case, &groups);
-    let warnings = doubts::warnings(case, &groups, &across);
-    Ok(Built { solvers, drives, probes, watch, body, numbers, warnings, across })
+    let warnings = doubts::warnings(case, (&groups, &tools), &across);
+    let contact = touch::contact(case);
+    Ok(Built { solvers, contact, drives, probes, watch, body, numbers, warnings, across })
 }

@@ -34,6 +34,11 @@ pub enum Spot {
     Point([f64; 3]),
     /// The mean over the particles whose reference position is in here, weighted by volume.
     Region(ShapeSpec),
+    /// What contact does to the body.
+    Contact {
+        /// Number of the body that does it; `None` for all.
+        by: Option<usize>,
+    },
 }
 
 /// What a probe records.
@@ -45,6 +50,10 @@ pub enum Quantity {
     Position,
     /// Velocity, m/s.
     Velocity,
+    /// Contact force, N.
+    ContactForce,
+    /// Moment of the contact forces about the origin, N m.
+    ContactMoment,
 }
 
 impl Words for Quantity {
@@ -52,6 +61,12 @@ impl Words for Quantity {
         ("displacement", Self::Displacement, "present minus reference position, m"),
         ("position", Self::Position, "present position, m"),
         ("velocity", Self::Velocity, "velocity, m/s"),
+        (
+            "contact-force",
+            Self::ContactForce,
+            "the force of contact on a body or tool, N (in 2D per metre of depth)",
+        ),
+        ("contact-moment", Self::ContactMoment, "its moment about the origin, N m: x, y, z, in 2D too"),
     ];
 }
 
@@ -61,38 +76,78 @@ impl Quantity {
         match self {
             Self::Displacement | Self::Position => Dimension::LENGTH,
             Self::Velocity => Dimension::SPEED,
+            Self::ContactForce => Dimension::FORCE,
+            Self::ContactMoment => Dimension::ENERGY,
         }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Displacement | Self::Position => "m",
+            Self::Velocity => "m/s",
+            Self::ContactForce => "N",
+            Self::ContactMoment => "N m",
+        }
+    }
+
+    /// How many components it has in a dimension.
+    pub fn components(self, dimension: usize) -> usize {
+        if self == Self::ContactMoment { 3 } else { dimension }
+    }
+
+    fn is_contact(self) -> bool {
+        matches!(self, Self::ContactForce | Self::ContactMoment)
     }
 }
 
-/// One probe; `bodies` are the names of all bodies of the case.
+/// One probe, with the names of all bodies of the case, and of all bodies and then tools.
 pub(crate) fn read(
     section: &Section<'_>,
     shapes: &mut ShapeReader<'_>,
-    bodies: &[Option<&str>],
+    (bodies, touching): (&[Option<&str>], &[Option<&str>]),
     problems: &mut Problems,
 ) -> Option<Probe> {
     let scope = shapes.scope;
     section.only(keys::TABLE.keys, problems);
     let name = problems.keep(part_name(section));
-    let spot = problems.keep(spot(section, shapes));
-    let body = problems.keep(body(section, bodies));
     let quantity =
         section.get(keys::QUANTITY.name).map(|node| choice(node, keys::QUANTITY.name, Quantity::WORDS));
-    let quantity = problems.keep(quantity.transpose());
+    let quantity = problems.keep(quantity.transpose())?.unwrap_or(Quantity::Displacement);
+    let of_contact = quantity.is_contact();
+    let spot = problems.keep(if of_contact { by(section, touching) } else { spot(section, shapes) });
+    let body = problems.keep(body(section, if of_contact { touching } else { bodies }));
     let interval = problems.keep(scope.get(section, &keys::INTERVAL));
     let (spot, place) = spot?;
     Some(Probe {
         name: name?.to_string(),
         spot,
         body: body?,
-        quantity: quantity?.unwrap_or(Quantity::Displacement),
+        quantity,
         interval: interval?.unwrap_or(defaults::PROBE_INTERVAL),
         place,
     })
 }
 
+/// What a probe of contact looks at.
+fn by(section: &Section<'_>, touching: &[Option<&str>]) -> Result<(Spot, Place), Diagnostic> {
+    if let Some(node) = section.get(keys::AT.name).or(section.get(keys::REGION.name)) {
+        return Err(Diagnostic::at(
+            node.place,
+            "a probe of contact is of a whole body: it has no `at` or `region`",
+        ));
+    }
+    let by = section.get(keys::BY.name).map(|node| find(node, "body or tool", touching)).transpose()?;
+    Ok((Spot::Contact { by }, section.place))
+}
+
 fn spot(section: &Section<'_>, shapes: &mut ShapeReader<'_>) -> Result<(Spot, Place), Diagnostic> {
+    if let Some(node) = section.get(keys::BY.name) {
+        return Err(Diagnostic::at(
+            node.place,
+            "`by` belongs to the quantities contact-force and contact-moment",
+        ));
+    }
     match (section.get(keys::AT.name), section.get(keys::REGION.name)) {
         (Some(node), None) => Ok((Spot::Point(shapes.scope.vector(node, &keys::AT)?), node.place)),
         (None, Some(node)) => Ok((Spot::Region(shapes.shape(node)?), node.place)),

@@ -69,6 +69,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,
+        tools: parts.tools,
+        contacts: parts.contacts,
         boundaries: parts.boundaries,
         initial: parts.initial,
         gravity: parts.gravity,

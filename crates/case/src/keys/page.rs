@@ -69,6 +69,7 @@ fn value(kind: &Kind) -> String {
         Kind::Text => "text",
         Kind::Name => "name",
         Kind::NameOf(part) => return format!("name of a {part}"),
+        Kind::NamesOf(part) => return format!("list of one or two names of a {part}"),
         Kind::True => "`true`",
         Kind::OneOf(numbers) => {
             return numbers.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" or ");
@@ -80,6 +81,8 @@ fn value(kind: &Kind) -> String {
         Kind::Pairs(_) => "list of points",
         Kind::Place(_) => "expression of x, y, z per axis",
         Kind::Field(_) => "expression of x, y, z, t per axis",
+        Kind::OfTime(_) => "expression of t per axis",
+        Kind::AngleOfTime => "expression of t",
         Kind::FieldOrFree(_) => "expression of x, y, z, t or `\"free\"` per axis",
         Kind::Choice(_) => "word",
         Kind::Axes => "list of axes",

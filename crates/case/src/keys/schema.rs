@@ -87,12 +87,17 @@ fn kind(kind: &Kind) -> Value {
     match *kind {
         Kind::Text => json!({ "type": "string" }),
         Kind::Name | Kind::NameOf(_) => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" }),
+        Kind::NamesOf(_) => {
+            let name = json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" });
+            json!({ "type": "array", "items": name, "minItems": 1, "maxItems": 2 })
+        }
         Kind::True => json!({ "const": true }),
         Kind::OneOf(numbers) => json!({ "enum": numbers }),
         Kind::Count => json!({ "type": "integer", "minimum": 1 }),
         Kind::Number(_, range) => bounded(range),
         Kind::OfProbe => bounded(Range::Positive),
-        Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
+        Kind::AngleOfTime => number,
+        Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) | Kind::OfTime(_) => {
             json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 3 })
         }
         Kind::Pair(_) => json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 }),
@@ -163,9 +168,11 @@ fn kinds_of_measures() -> Value {
     let rule = |&(name, measured, _): &(&str, Measured, &str)| {
         let mut required = vec!["name", "kind"];
         required.extend(measured.keys().iter().map(|key| key.name));
+        let allowed: Vec<&str> =
+            required.iter().copied().chain(measured.more().iter().map(|key| key.name)).collect();
         json!({
             "if": { "properties": { "kind": { "const": name } } },
-            "then": { "required": required, "propertyNames": { "enum": required } },
+            "then": { "required": required, "propertyNames": { "enum": allowed } },
         })
     };
     <Measured as super::Words>::WORDS.iter().map(rule).collect()

@@ -3,7 +3,7 @@
 /// The top level.
 pub(crate) mod case {
     use super::super::{
-        Key, Kind, Need, Range, Table, Words, body, boundary, gravity, initial, measure, probe,
+        Key, Kind, Need, Range, Table, Words, body, boundary, contact, gravity, initial, measure, probe, tool,
     };
     use super::{material, monitor, region, time};
     use crate::checked::{Formulation, Kernel, Plane, Stepping};
@@ -95,6 +95,8 @@ pub(crate) mod case {
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),
             table("body", Kind::List(&body::TABLE), Need::Required, &body::TABLE),
+            table("tool", Kind::List(&tool::TABLE), Need::Optional, &tool::TABLE),
+            table("contact", Kind::List(&contact::TABLE), Need::Optional, &contact::TABLE),
             table("boundary", Kind::List(&boundary::TABLE), Need::Optional, &boundary::TABLE),
             table("initial", Kind::List(&initial::TABLE), Need::Optional, &initial::TABLE),
             table("gravity", Kind::List(&gravity::TABLE), Need::Optional, &gravity::TABLE),

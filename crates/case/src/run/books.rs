@@ -119,13 +119,14 @@ fn mass(simulation: &Simulation) -> Vec<f64> {
 }
 
 fn energy(start: &Totals, end: &Totals, history: Vec<[f64; 4]>) -> Energy {
-    let initial = start.kinetic + start.strain;
-    let at_end = end.kinetic + end.strain;
+    let initial = start.kinetic + start.strain + start.contact;
+    let at_end = end.kinetic + end.strain + end.contact;
     Energy {
         initial,
         at_end,
         kinetic: end.kinetic,
         strain: end.strain,
+        contact: end.contact,
         dissipated: end.dissipated,
         external_work: end.external_work,
         residual: initial + end.external_work - end.dissipated - at_end,

@@ -115,12 +115,12 @@ fn in_pool(
     let precision = built.numbers.name();
     Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
         .write(results)?;
-    let Built { solvers, drives, probes, watch, numbers, warnings, .. } = built;
+    let Built { solvers, contact, drives, probes, watch, numbers, warnings, .. } = built;
     let writer = Writer::create(case, results, watch, warnings)?;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
-    let mut simulation = Simulation::new(solvers, drives);
+    let mut simulation = Simulation::new(solvers, drives).touching(contact);
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
     let mut written = None;

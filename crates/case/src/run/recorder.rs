@@ -49,7 +49,7 @@ impl<'a> Recorder<'a> {
         for i in 0..self.points.len() {
             if time >= self.due.probes[i] {
                 self.due.probes[i] += self.case.probes[i].interval;
-                let value = self.points[i].value(simulation.solvers());
+                let value = self.points[i].value(simulation);
                 self.outbox.sheet.samples.push(Sample { probe: i, time, value });
             }
         }

@@ -109,9 +109,10 @@ fn of_built(case: &Case, built: Built, before: f64) -> Result<Estimate, RunError
 
 fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<Estimate, RunError> {
     let particles = built.particles();
-    let Built { solvers, drives, mut watch, warnings, across, .. } = built;
+    let Built { solvers, contact, drives, mut watch, warnings, across, .. } = built;
     let stopped = |diverged| RunError::Diverged { diverged: Box::new(diverged), results: "nowhere".into() };
-    let mut simulation = Simulation::start(solvers, drives).map_err(stopped)?;
+    let mut simulation = Simulation::new(solvers, drives).touching(contact);
+    simulation.begin().map_err(stopped)?;
     let (dt, first) = (simulation.dt(), looked_at(case, &simulation, watch.as_mut())?);
     let clock = Instant::now();
     let mut taken = 0;

@@ -43,9 +43,9 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
         for probe in &case.probes {
-            let unit = if probe.quantity == crate::Quantity::Velocity { "m/s" } else { "m" };
+            let (unit, axes) = (probe.quantity.unit(), probe.quantity.components(case.dimension));
             let columns: Vec<(&str, &str)> =
-                ["x", "y", "z"].into_iter().take(case.dimension).map(|axis| (axis, unit)).collect();
+                ["x", "y", "z"].into_iter().take(axes).map(|axis| (axis, unit)).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
         let support = 2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max);
@@ -106,7 +106,8 @@ impl<'a> Writer<'a> {
 
     fn tabulate(&mut self, sheet: &Sheet) -> Result<(), RunError> {
         for sample in &sheet.samples {
-            self.tables[sample.probe].push(sample.time, &sample.value[..self.case.dimension])?;
+            let axes = self.case.probes[sample.probe].quantity.components(self.case.dimension);
+            self.tables[sample.probe].push(sample.time, &sample.value[..axes])?;
             let series = &mut self.series[sample.probe];
             series.times.push(sample.time);
             for (column, v) in series.values.iter_mut().zip(sample.value) {
@@ -132,7 +133,12 @@ impl<'a> Writer<'a> {
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
         let (time, totals) = (sheet.snapshot.time, &sheet.totals);
-        self.energies.push([time, totals.kinetic, totals.strain, totals.kinetic + totals.strain]);
+        self.energies.push([
+            time,
+            totals.kinetic,
+            totals.strain,
+            totals.kinetic + totals.strain + totals.contact,
+        ]);
         let Observed { disorder, gap } = self.watch.measure(&sheet.snapshot, self.contact.is_awaited())?;
         self.contact.look(time, gap);
         let zigzag = disorder.zigzag_rms;

@@ -26,6 +26,10 @@ impl Dimension {
     pub const PRESSURE: Self = Self::new(1, -1, -2);
     /// m/s
     pub const SPEED: Self = Self::new(0, 1, -1);
+    /// N
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// J, N m
+    pub const ENERGY: Self = Self::new(1, 2, -2);
     /// m/s^2
     pub const ACCELERATION: Self = Self::new(0, 1, -2);
 

@@ -3,6 +3,7 @@
 use super::Diverged;
 use crate::field::Quantity;
 use crate::formulation::State;
+use crate::math::Vector;
 use crate::pass::Now;
 
 /// What there is to see of one particle, at the present time.
@@ -44,6 +45,10 @@ pub trait Solver: Send {
     fn ids(&self) -> &[u32];
     /// The place where the particle of an id is stored; it may change from step to step.
     fn stored(&self, id: usize) -> usize;
+    /// Whether its particles have no mass and move as they are told.
+    fn is_rigid(&self) -> bool {
+        false
+    }
     /// Mean number of neighbours.
     fn neighbours(&self) -> f64;
 
@@ -85,6 +90,24 @@ pub trait Solver: Send {
     /// A scalar field of the particle stored at `place`.
     fn scalar(&self, field: Quantity, place: usize) -> f64 {
         self.word(field, 0, place)
+    }
+    /// The position that the forces of the coming step are functions of, m.
+    fn configuration(&self, place: usize) -> [f64; 3];
+    /// The same of particles by id: one virtual call for all of them.
+    fn locate(&self, ids: &[u32], out: &mut [Vector<f64, 3>]) {
+        for (&id, out) in ids.iter().zip(out) {
+            *out = Vector(self.configuration(self.stored(id as usize)));
+        }
+    }
+    /// Adds to the velocities of particles by id, m/s.
+    fn kick(&mut self, changes: &[(u32, Vector<f64, 3>)]) {
+        for &(id, change) in changes {
+            let place = self.stored(id as usize);
+            for k in 0..self.dimension() {
+                let v = self.word(Quantity::Velocity, k, place);
+                self.set_word(Quantity::Velocity, k, (place, v + change[k]));
+            }
+        }
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;

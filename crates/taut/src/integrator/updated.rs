@@ -215,6 +215,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         self.run.set_word(field, word, at);
     }
 
+    fn configuration(&self, place: usize) -> [f64; 3] {
+        self.read(Quantity::Position, place)
+    }
+
     fn state(&self, place: usize) -> State {
         self.formulation.state(&self.run, place, 0.0)
     }

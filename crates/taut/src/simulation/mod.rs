@@ -8,8 +8,9 @@ pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body
 pub use particles::{Point, total, updated};
 pub use snapshot::{Snapshot, Totals};
 
-pub use crate::integrator::{Seen, Solver};
+pub use crate::integrator::{Motion, Pose, Rigid, Seen, Solver};
 
+use crate::contact::Contact;
 use crate::integrator::Diverged;
 use crate::pass::Now;
 
@@ -23,6 +24,7 @@ pub trait Drive: Send {
 pub struct Simulation {
     solvers: Vec<Box<dyn Solver>>,
     drives: Vec<Box<dyn Drive>>,
+    contact: Option<Contact>,
     time: f64,
     dt: f64,
     steps: u64,
@@ -42,7 +44,13 @@ impl Simulation {
     /// A simulation that has yet to [`begin`](Self::begin).
     #[must_use]
     pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
-        Self { solvers, drives, time: 0.0, dt: 0.0, steps: 0 }
+        Self { solvers, drives, contact: None, time: 0.0, dt: 0.0, steps: 0 }
+    }
+
+    /// The same with bodies that touch.
+    #[must_use]
+    pub fn touching(self, contact: Option<Contact>) -> Self {
+        Self { contact, ..self }
     }
 
     /// Prepares the first step; once.
@@ -53,6 +61,9 @@ impl Simulation {
         for solver in &mut self.solvers {
             solver.start()?;
         }
+        if let Some(contact) = &mut self.contact {
+            contact.begin(&self.solvers)?;
+        }
         self.dt = self.stable_step();
         for solver in &mut self.solvers {
             solver.begin(self.dt);
@@ -60,8 +71,11 @@ impl Simulation {
         Ok(())
     }
 
+    /// Stiffnesses of bodies and contact add up, so squares of frequencies do at most: 1/dt^2 = 1/dt_bodies^2 + 1/dt_contact^2.
     fn stable_step(&self) -> f64 {
-        self.solvers.iter().map(|s| s.stable_step()).fold(f64::INFINITY, f64::min)
+        let bodies = self.solvers.iter().map(|s| s.stable_step()).fold(f64::INFINITY, f64::min);
+        let contact = self.contact.as_ref().map_or(f64::INFINITY, Contact::stable_step);
+        bodies / (1.0 + (bodies / contact).powi(2)).sqrt()
     }
 
     /// One step of all bodies.
@@ -81,6 +95,9 @@ impl Simulation {
         for drive in &mut self.drives {
             drive.apply(&mut self.solvers, now);
         }
+        if let Some(contact) = &mut self.contact {
+            contact.apply(&mut self.solvers, now)?;
+        }
         for solver in &mut self.solvers {
             solver.advance(now)?;
         }
@@ -92,6 +109,12 @@ impl Simulation {
         self.steps += 1;
         self.dt = next;
         Ok(())
+    }
+
+    /// What bodies do to each other, if they touch.
+    #[must_use]
+    pub fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
     }
 
     /// The bodies.

@@ -64,6 +64,8 @@ pub struct Totals {
     pub kinetic: f64,
     /// Strain energy, J.
     pub strain: f64,
+    /// Energy held by contact, J.
+    pub contact: f64,
     /// Energy dissipated since the start, J.
     pub dissipated: f64,
     /// Work done from outside since the start, J.
@@ -117,7 +119,17 @@ impl Simulation {
             });
             first += solver.len();
         }
+        self.meet(&mut totals);
         totals
+    }
+
+    /// Adds what contact holds, takes and passes on.
+    fn meet(&self, totals: &mut Totals) {
+        if let Some(contact) = &self.contact {
+            totals.contact = contact.energy(&self.solvers);
+            totals.dissipated += contact.dissipated();
+            totals.external_work += contact.external_work();
+        }
     }
 
     /// Energies and momenta now.
@@ -127,6 +139,7 @@ impl Simulation {
         for solver in &self.solvers {
             solver.show(&mut |seen| totals.add(seen));
         }
+        self.meet(&mut totals);
         totals
     }
 }

@@ -5,6 +5,7 @@
 mod common;
 
 mod constraints;
+mod contact;
 mod divergence;
 mod energy;
 mod lanes;

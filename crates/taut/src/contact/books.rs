@@ -1,0 +1,97 @@
+//! Forces between bodies, and the energy of contact.
+
+use super::Contact;
+use crate::field::Quantity;
+use crate::integrator::Solver;
+use crate::math::Vector;
+
+/// What contact does to a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Met {
+    /// Force, N (in 2D per metre of depth).
+    pub force: [f64; 3],
+    /// Moment about the origin, N m.
+    pub moment: [f64; 3],
+}
+
+/// What contact has done to energies since the start, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ledger {
+    /// Put in by what moves as it is told: rigid bodies, and prescribed components of others.
+    pub work: f64,
+    /// Taken by friction.
+    pub dissipated: f64,
+}
+
+impl Contact {
+    /// The force on the particle of a facing, N.
+    pub(super) fn force_on(&self, facing: usize) -> Vector<f64, 3> {
+        let drag = self.springs.drag.get(facing).map_or(Vector::zero(), |drag| drag.0);
+        self.pushed[facing].force.0 + drag
+    }
+
+    /// The contact force on a body, by one other or by all, as it was in the middle of the last step.
+    #[must_use]
+    pub fn met(&self, body: u32, by: Option<u32>) -> Met {
+        let mut met = Met::default();
+        for (i, facing) in self.facings.all.iter().enumerate() {
+            let a = facing.a as usize;
+            if self.surfaces.body[a] != body || by.is_some_and(|by| by != facing.body) {
+                continue;
+            }
+            let (f, x) = (self.force_on(i), self.surfaces.x[a]);
+            for k in 0..3 {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                met.force[k] += f[k];
+                met.moment[k] += x[i] * f[j] - x[j] * f[i];
+            }
+        }
+        met
+    }
+
+    /// Notes the work of prescribed motion and the loss of a step of `dt`.
+    pub(super) fn note(&mut self, dt: f64) {
+        let mut first = 0;
+        let mut work = 0.0;
+        for &(a, end) in &self.facings.owners {
+            let (a, end) = (a as usize, end as usize);
+            let (light, v) = (self.surfaces.lightness[a], self.surfaces.v[a]);
+            if light.0.contains(&0.0) {
+                let f = (first..end).fold(Vector::zero(), |sum, i| sum + self.force_on(i));
+                work -= (0..3).filter(|&k| light[k] == 0.0).map(|k| f[k] * v[k]).sum::<f64>();
+            }
+            first = end;
+        }
+        self.ledger.work += dt * work;
+        self.ledger.dissipated += self.springs.all.iter().map(|spring| spring.lost).sum::<f64>();
+    }
+
+    /// Energy that contact holds now, J: of the present positions, where the lists reach.
+    #[must_use]
+    pub fn energy(&self, solvers: &[Box<dyn Solver>]) -> f64 {
+        let mut surfaces = self.surfaces.clone();
+        for (a, _) in &self.facings.owners {
+            let a = *a as usize;
+            let solver = &solvers[self.surfaces.members[surfaces.body[a] as usize].solver];
+            let u = solver.read(Quantity::Displacement, solver.stored(surfaces.ids[a] as usize));
+            surfaces.x[a] = surfaces.reference[a] + Vector(u);
+        }
+        let scene = super::force::Scene { surfaces: &surfaces, ..self.scene() };
+        let facings = self.facings.all.iter();
+        let pressed = facings.clone().map(|facing| scene.energy(facing));
+        let held = facings.zip(&self.springs.all).map(|(facing, spring)| scene.held(facing, spring));
+        pressed.chain(held).fold(0.0, |sum, energy| sum + energy)
+    }
+
+    /// Work that prescribed motion has put in through contact since the start, J.
+    #[must_use]
+    pub fn external_work(&self) -> f64 {
+        self.ledger.work
+    }
+
+    /// Energy that friction has taken since the start, J.
+    #[must_use]
+    pub fn dissipated(&self) -> f64 {
+        self.ledger.dissipated
+    }
+}
