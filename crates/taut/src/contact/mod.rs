@@ -143,7 +143,7 @@ impl Contact {
                 first = end as usize;
                 owners.next();
             }
-            solvers[member.solver].kick(&kicks);
+            solvers[member.solver].kick(&kicks, dt);
         }
         self.kicks = kicks;
     }

@@ -99,15 +99,23 @@ pub trait Solver: Send {
             *out = Vector(self.configuration(self.stored(id as usize)));
         }
     }
-    /// Adds to the velocities of particles by id, m/s.
-    fn kick(&mut self, changes: &[(u32, Vector<f64, 3>)]) {
+    /// Adds to the velocities of particles by id, m/s, what a force from elsewhere does in the coming step of `dt`.
+    fn kick(&mut self, changes: &[(u32, Vector<f64, 3>)], dt: f64) {
         for &(id, change) in changes {
             let place = self.stored(id as usize);
             for k in 0..self.dimension() {
                 let v = self.word(Quantity::Velocity, k, place);
                 self.set_word(Quantity::Velocity, k, (place, v + change[k]));
             }
+            self.correct(place, change, dt);
         }
+    }
+    /// The body's own kick takes the mean velocity of the step for the work of its forces, and finds it too large by half of a change that
+    /// came before: takes back what that makes of the work of the body force.
+    fn correct(&mut self, place: usize, change: Vector<f64, 3>, dt: f64) {
+        let force = Vector(self.read(Quantity::BodyForce, place)).times(self.scalar(Quantity::Mass, place));
+        let work = self.scalar(Quantity::ExternalWork, place) - 0.5 * dt * force.dot(change);
+        self.set_word(Quantity::ExternalWork, 0, (place, work));
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;

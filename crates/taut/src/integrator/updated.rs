@@ -6,6 +6,7 @@ use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
+use crate::math::Vector;
 use crate::neighbours::storage_order;
 use crate::pass::Now;
 use crate::run::{Among, Relist, Run};
@@ -217,6 +218,17 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn configuration(&self, place: usize) -> [f64; 3] {
         self.read(Quantity::Position, place)
+    }
+
+    fn correct(&mut self, place: usize, change: Vector<f64, 3>, dt: f64) {
+        let mass = self.scalar(Quantity::Mass, place);
+        let half = |force: [f64; 3]| 0.5 * dt * mass * Vector(force).dot(change);
+        let work = half(self.read(Quantity::BodyForce, place));
+        let stored = half(self.read(Quantity::ShearAcceleration, place));
+        let external = self.scalar(Quantity::ExternalWork, place) - work;
+        self.set_word(Quantity::ExternalWork, 0, (place, external));
+        let shear = self.scalar(Quantity::ShearWork, place) + stored;
+        self.set_word(Quantity::ShearWork, 0, (place, shear));
     }
 
     fn state(&self, place: usize) -> State {
