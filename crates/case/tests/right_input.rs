@@ -68,7 +68,10 @@ fn a_column_in_three_dimensions() {
     assert!(x.depends_on_time() && !z.depends_on_time());
     assert_eq!(x.eval([0.0; 3], 0.05), 0.1 * (20.0f64 * 0.05).sin());
     let low = Feature::TurningPoint { extremum: Extremum::Minimum, prominence: 0.3, index: 1 };
-    assert_eq!(case.measures[0].kind, MeasureKind::Probe { probe: 0, axis: Axis::Z, feature: low });
+    assert_eq!(
+        case.measures[0].kind,
+        MeasureKind::Probe { probe: 0, axis: Axis::Z, feature: low, over: None }
+    );
 }
 
 #[test]
