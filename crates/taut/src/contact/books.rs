@@ -14,13 +14,26 @@ pub struct Met {
     pub moment: [f64; 3],
 }
 
-/// What contact has done to energies since the start, J.
+/// What contact has done to energies and momenta since the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ledger {
-    /// Put in by what moves as it is told: rigid bodies, and prescribed components of others.
+    /// Put in by what moves as it is told: rigid bodies, and prescribed components of others, J.
     pub work: f64,
-    /// Taken by friction.
+    /// Taken by friction, J.
     pub dissipated: f64,
+    /// Momentum, and angular momentum about the origin, of all that moves freely, from what does not.
+    pub impulse: Met,
+}
+
+impl Met {
+    /// Adds a force at a place.
+    fn add(&mut self, force: Vector<f64, 3>, x: Vector<f64, 3>) {
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            self.force[k] += force[k];
+            self.moment[k] += x[i] * force[j] - x[j] * force[i];
+        }
+    }
 }
 
 impl Contact {
@@ -39,12 +52,7 @@ impl Contact {
             if self.surfaces.body[a] != body || by.is_some_and(|by| by != facing.body) {
                 continue;
             }
-            let (f, x) = (self.force_on(i), self.surfaces.x[a]);
-            for k in 0..3 {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                met.force[k] += f[k];
-                met.moment[k] += x[i] * f[j] - x[j] * f[i];
-            }
+            met.add(self.force_on(i), self.surfaces.x[a]);
         }
         met
     }
@@ -56,8 +64,10 @@ impl Contact {
         for &(a, end) in &self.facings.owners {
             let (a, end) = (a as usize, end as usize);
             let (light, v) = (self.surfaces.lightness[a], self.surfaces.v[a]);
+            let f = (first..end).fold(Vector::zero(), |sum, i| sum + self.force_on(i));
+            let moving = Vector::from_fn(|k| if light[k] > 0.0 { dt * f[k] } else { 0.0 });
+            self.ledger.impulse.add(moving, self.surfaces.x[a]);
             if light.0.contains(&0.0) {
-                let f = (first..end).fold(Vector::zero(), |sum, i| sum + self.force_on(i));
                 work -= (0..3).filter(|&k| light[k] == 0.0).map(|k| f[k] * v[k]).sum::<f64>();
             }
             first = end;
@@ -87,6 +97,13 @@ impl Contact {
     #[must_use]
     pub fn external_work(&self) -> f64 {
         self.ledger.work
+    }
+
+    /// Momentum (as a force) and angular momentum (as a moment) that what moves freely has had from rigid bodies and held particles since the
+    /// start, kg m/s and kg m^2/s: nothing but rounding where there are none, if there is no friction.
+    #[must_use]
+    pub fn impulse(&self) -> Met {
+        self.ledger.impulse
     }
 
     /// Energy that friction has taken since the start, J.
