@@ -24,6 +24,12 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../../validation/tl-plate/accept.toml")),
     ("tl-bending-column", include_str!("../../../../validation/tl-bending-column/accept.toml")),
     ("tl-twisting-column", include_str!("../../../../validation/tl-twisting-column/accept.toml")),
+    ("tl-punch", include_str!("../../../../validation/tl-punch/accept.toml")),
+    ("contact-hertz", include_str!("../../../../validation/contact-hertz/accept.toml")),
+    ("contact-sphere", include_str!("../../../../validation/contact-sphere/accept.toml")),
+    ("contact-bars", include_str!("../../../../validation/contact-bars/accept.toml")),
+    ("contact-incline", include_str!("../../../../validation/contact-incline/accept.toml")),
+    ("contact-fold", include_str!("../../../../validation/contact-fold/accept.toml")),
     ("ul-plate-2d", include_str!("../../../../validation/ul-plate-2d/accept.toml")),
     ("ul-rings", include_str!("../../../../validation/ul-rings/accept.toml")),
 ];
