@@ -201,8 +201,10 @@ impl MeasureReader<'_> {
             _ => {
                 let probe = find(section.need(keys::PROBE.name)?, keys::PROBE.name, self.probes)?;
                 let dimension = self.scope.dimension;
-                let quantity = self.checked.get(probe).map(|p| p.quantity);
-                let axes = &Axis::WORDS[..quantity.map_or(dimension, |q| q.components(dimension))];
+                // Where a probe is wrong the others have moved up: then every axis may be right.
+                let whole = self.checked.len() == self.probes.len();
+                let quantity = self.checked.get(probe).filter(|_| whole).map(|p| p.quantity);
+                let axes = &Axis::WORDS[..quantity.map_or(3, |q| q.components(dimension))];
                 let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
                 let feature = self.feature(kind, probe, section)?;
                 Ok(MeasureKind::Probe { probe, axis, feature, over: self.over(probe, section)? })

@@ -1,6 +1,7 @@
 //! Forces between bodies, and the energy of contact.
 
 use super::Contact;
+use super::friction::Spring;
 use crate::field::Quantity;
 use crate::integrator::Solver;
 use crate::math::Vector;
@@ -24,6 +25,9 @@ pub struct Ledger {
     /// Momentum, and angular momentum about the origin, of all that moves freely, from what does not.
     pub impulse: Met,
 }
+
+/// Numbers of the ledger.
+const BOOKS: usize = 8;
 
 impl Met {
     /// Adds a force at a place.
@@ -91,6 +95,32 @@ impl Contact {
         let pressed = facings.clone().map(|facing| scene.energy(facing));
         let held = facings.zip(&self.springs.all).map(|(facing, spring)| scene.held(facing, spring));
         pressed.chain(held).fold(0.0, |sum, energy| sum + energy)
+    }
+
+    /// All that contact remembers from step to step: its books, and the springs of friction. Everything else follows from where the bodies
+    /// are.
+    #[must_use]
+    pub fn memory(&self) -> Vec<f64> {
+        let Ledger { work, dissipated, impulse } = self.ledger;
+        let books = [work, dissipated].into_iter().chain(impulse.force).chain(impulse.moment);
+        books.chain(self.springs.all.iter().flat_map(Spring::numbers)).collect()
+    }
+
+    /// Puts back what [`Contact::memory`] gave, into a contact of the same bodies that has begun; whether it fits.
+    pub fn recall(&mut self, memory: &[f64]) -> bool {
+        let Some((books, springs)) = memory.split_at_checked(BOOKS) else { return false };
+        let (springs, rest) = springs.as_chunks::<5>();
+        let vector = |from: usize| std::array::from_fn(|k| books[from + k]);
+        self.ledger = Ledger {
+            work: books[0],
+            dissipated: books[1],
+            impulse: Met { force: vector(2), moment: vector(5) },
+        };
+        self.springs.all = springs.iter().map(|&numbers| Spring::of(numbers)).collect();
+        if self.rubs {
+            self.springs.follow(&self.facings);
+        }
+        rest.is_empty()
     }
 
     /// Work that prescribed motion has put in through contact since the start, J.

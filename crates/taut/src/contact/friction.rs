@@ -52,6 +52,19 @@ impl Springs {
     }
 }
 
+impl Spring {
+    /// The numbers that it is when a run goes on.
+    pub fn numbers(&self) -> [f64; 5] {
+        let [x, y, z] = self.stretch.0.0;
+        [f64::from(self.a), f64::from(self.body), x, y, z]
+    }
+
+    /// The spring of such numbers.
+    pub fn of([a, body, x, y, z]: [f64; 5]) -> Self {
+        Self { a: a as u32, body: body as u32, stretch: Vector3(Vector([x, y, z])), ..Self::default() }
+    }
+}
+
 impl Scene<'_> {
     /// k_t of a facing, N/m, for its half of the sticking: the two sides hold on to each other.
     fn sticking(&self, facing: &Facing) -> f64 {

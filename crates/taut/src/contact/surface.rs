@@ -78,7 +78,7 @@ impl Surfaces {
         let free = particles.read(Quantity::Free, place);
         self.ids.push(id);
         self.body.push(body);
-        self.volume.push(particles.scalar(Quantity::Volume, place));
+        self.volume.push(particles.rest_volume(place));
         self.lightness.push(Vector(free.map(|f| if mass > 0.0 { f / mass } else { 0.0 })));
         self.reference.push(Vector(particles.read(Quantity::ReferencePosition, place)));
         self.x.push(Vector::zero());
@@ -115,7 +115,7 @@ impl<const D: usize> Skin<D> {
         let apart = |a: usize, b: u32| Vector(x[a]) - Vector(x[b as usize]);
         let bare = |a: usize| {
             let sum = list.of(a).iter().fold(Vector::zero(), |sum: Vector<f64, 3>, &b| {
-                let (e, volume) = (apart(a, b), solver.scalar(Quantity::Volume, b as usize));
+                let (e, volume) = (apart(a, b), solver.rest_volume(b as usize));
                 let r = e.norm_squared().sqrt();
                 sum.plus(volume * law.slope(r) / r, e)
             });

@@ -46,8 +46,8 @@ pub struct Rigid {
     ahead: Pose,
     /// At the end of the step.
     next: Pose,
-    /// The step, s.
-    dt: f64,
+    /// Begin and length of the step, s.
+    step: Now<f64>,
 }
 
 impl Rigid {
@@ -62,19 +62,31 @@ impl Rigid {
         let (x, volume): (Vec<_>, Vec<_>) = points.map(|(x, volume)| (Vector(x), volume)).unzip();
         let start = motion.pose(0.0);
         let ids = (0..x.len() as u32).collect();
-        Self { dimension, body, ids, x, volume, motion, now: start, ahead: start, next: start, dt: 0.0 }
+        Self {
+            dimension,
+            body,
+            ids,
+            x,
+            volume,
+            motion,
+            now: start,
+            ahead: start,
+            next: start,
+            step: Now { t: 0.0, dt: 0.0 },
+        }
     }
 
+    /// Takes the poses of a step: all that the body is depends on it.
     fn plan(&mut self, t: f64, dt: f64) {
         self.now = self.motion.pose(t);
         self.ahead = self.motion.pose(t + 0.5 * dt);
         self.next = self.motion.pose(t + dt);
-        self.dt = dt;
+        self.step = Now { t, dt };
     }
 
     fn velocity(&self, place: usize) -> Vector<f64, 3> {
-        let x = self.x[place];
-        if self.dt > 0.0 { (self.next.of(x) - self.now.of(x)).times(1.0 / self.dt) } else { Vector::zero() }
+        let (x, dt) = (self.x[place], self.step.dt);
+        if dt > 0.0 { (self.next.of(x) - self.now.of(x)).times(1.0 / dt) } else { Vector::zero() }
     }
 }
 

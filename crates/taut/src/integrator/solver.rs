@@ -91,6 +91,10 @@ pub trait Solver: Send {
     fn scalar(&self, field: Quantity, place: usize) -> f64 {
         self.word(field, 0, place)
     }
+    /// Volume of the undeformed particle stored at `place`, m^3.
+    fn rest_volume(&self, place: usize) -> f64 {
+        self.scalar(Quantity::Volume, place)
+    }
     /// The position that the forces of the coming step are functions of, m.
     fn configuration(&self, place: usize) -> [f64; 3];
     /// The same of particles by id: one virtual call for all of them.

@@ -216,6 +216,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         self.run.set_word(field, word, at);
     }
 
+    fn rest_volume(&self, place: usize) -> f64 {
+        self.scalar(Quantity::Mass, place) / self.scalar(Quantity::RestDensity, place)
+    }
+
     fn configuration(&self, place: usize) -> [f64; 3] {
         self.read(Quantity::Position, place)
     }

@@ -117,6 +117,11 @@ impl Simulation {
         self.contact.as_ref()
     }
 
+    /// The same, to put back what it remembers.
+    pub fn contact_mut(&mut self) -> Option<&mut Contact> {
+        self.contact.as_mut()
+    }
+
     /// The bodies.
     #[must_use]
     pub fn solvers(&self) -> &[Box<dyn Solver>] {

@@ -5,6 +5,7 @@ mod unmoved;
 
 use crate::common::Form;
 use scene::{DP, Kind, blocks, pairings, simulation};
+use taut::contact::Contact;
 use taut::field::Quantity;
 use taut::simulation::{Simulation, Solver, Totals};
 
@@ -177,6 +178,26 @@ fn the_number_of_threads_does_not_show() {
         let one = run(1);
         assert!(one == run(2) && one == run(3), "{kinds:?}");
     }
+}
+
+/// A run goes on bit by bit with what contact remembers, whatever its lists were.
+#[test]
+fn contact_remembers_what_it_needs() {
+    let kind = Kind::Of(Form::HourglassFree);
+    let run = |disturb: bool| {
+        let mut simulation = simulation::<2>((kind, kind), &blocks(0.15), 0.3);
+        (0..40).for_each(|_| simulation.step().expect("stable"));
+        let memory = simulation.contact().map(Contact::memory).unwrap_or_default();
+        assert!(memory.len() > 8, "they rub");
+        if disturb {
+            let contact = simulation.contact_mut().expect("they touch");
+            assert!(!contact.recall(&memory[..3]) && !contact.recall(&memory[1..]), "it does not fit");
+            assert!(contact.recall(&memory));
+        }
+        (0..40).for_each(|_| simulation.step().expect("stable"));
+        (bits(&simulation), simulation.contact().map(Contact::memory).unwrap_or_default())
+    };
+    assert!(run(false) == run(true));
 }
 
 /// Bodies that start further apart than they reach do not feel each other, and the step is theirs.
