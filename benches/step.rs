@@ -16,9 +16,10 @@ use taut::simulation::Point;
 
 const DP: f64 = 0.002;
 
-const FORMS: [(Form, &str); 4] = [
+const FORMS: [(Form, &str); 5] = [
     (Form::HourglassFree, "tl-hourglass-free"),
     (Form::TotalNested, "tl-nested"),
+    (Form::Ganzenmueller, "tl-ganzenmueller"),
     (Form::NonHourglass, "ul-non-hourglass"),
     (Form::UpdatedNested, "ul-nested"),
 ];

@@ -1,8 +1,8 @@
 //! A case in plain words.
 
 use crate::{
-    Boundary, Case, Constraint, Course, Family, Feature, FieldExpression, Fill, Kernel, March, MeasureKind,
-    Model, Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, Tool, VectorField,
+    Boundary, Case, Constraint, Course, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind,
+    March, MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, Tool, VectorField,
 };
 use std::fmt::Write as _;
 
@@ -29,7 +29,8 @@ pub fn explain(case: &Case) -> String {
         let on = on(case, i.body, Some(&i.region));
         format!("{on} starts at {} m/s", vector(&i.velocity, case.dimension))
     });
-    paragraph(&mut text, "What holds, moves and pulls", held.chain(started).chain(pulled));
+    let loaded = case.loads.iter().map(|l| load(case, l));
+    paragraph(&mut text, "What holds, moves and pulls", held.chain(started).chain(pulled).chain(loaded));
     paragraph(&mut text, "Time", times(case).into_iter());
     paragraph(&mut text, "Recorded", recorded(case).into_iter());
     text
@@ -132,6 +133,25 @@ fn rubbing(friction: f64) -> String {
     if friction > 0.0 { format!("with friction {}", short(friction)) } else { "without friction".to_string() }
 }
 
+/// A load in words.
+fn load(case: &Case, load: &Load) -> String {
+    let history = if load.history.is_some() { ", times a factor over time" } else { "" };
+    let (on, d) = match &load.spot {
+        Spot::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
+        Spot::Region(region) => (on(case, load.body, Some(region)), case.dimension),
+        Spot::Boundary(_) | Spot::Contact { .. } => (on(case, load.body, None), case.dimension),
+    };
+    match &load.kind {
+        LoadKind::Force(field) => format!("{on} feels a total force of {} N{history}", vector(field, d)),
+        LoadKind::Traction(field) => {
+            format!("the surface of {on} feels {} Pa of its undeformed area{history}", vector(field, d))
+        }
+        LoadKind::Pressure(field) => {
+            format!("a pressure of {} Pa follows the surface of {on}{history}", field.text())
+        }
+    }
+}
+
 /// Lengths of the box around a shape.
 fn size(case: &Case, spec: &ShapeSpec) -> String {
     let extent = crate::build::bounds(spec);
@@ -202,6 +222,23 @@ fn times(case: &Case) -> Vec<String> {
         time(case.time.end),
         time(case.time.output)
     )];
+    if let Some(s) = case.quasi_static {
+        lines = vec![format!(
+            "loads grow in {} increments up to t = {}, each held until unbalanced forces are below {} of the stress; frames are written for equilibria, every {}",
+            s.increments,
+            time(case.time.end),
+            s.tolerance,
+            time(case.time.output)
+        )];
+    }
+    if let Some(d) = case.damping {
+        lines.push(format!(
+            "all motion is damped, in {} of the steps chosen at random (seed {})",
+            d.probability, d.seed
+        ));
+    } else if case.quasi_static.is_some() {
+        lines.push("motion is stopped whenever the kinetic energy has passed a maximum, and stretched particles are made heavier".into());
+    }
     let updated = case.bodies.iter().find_map(|body| match body.scheme.march {
         March::Updated { stepping, .. } => Some(stepping),
         March::Total { .. } => None,
@@ -219,10 +256,11 @@ fn times(case: &Case) -> Vec<String> {
 fn recorded(case: &Case) -> Vec<String> {
     let probes = case.probes.iter().map(|p| probe(case, p));
     let measures = case.measures.iter().map(|m| format!("{}: {}", m.name, measure(case, &m.kind)));
-    let watch = case
-        .monitor
-        .zigzag
-        .map(|limit| format!("a warning if the zigzag of the particles exceeds {limit} spacings"));
+    let Monitor { zigzag, bond_min, broken, stop, .. } = case.monitor;
+    let what = if stop { "an end" } else { "a warning" };
+    let watch = std::iter::once(format!(
+        "{what} if the zigzag of the particles exceeds {zigzag} spacings, neighbours come closer than {bond_min} spacings, or more than {broken} of the bonds break"
+    ));
     probes.chain(measures).chain(watch).collect()
 }
 
@@ -233,6 +271,8 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Quantity::Velocity => "velocity",
         Quantity::ContactForce => "contact force",
         Quantity::ContactMoment => "moment of the contact forces about the origin",
+        Quantity::Reaction => "force",
+        Quantity::Moment => "moment about the origin",
     };
     let spot = match &probe.spot {
         Spot::Point(at) => {
@@ -243,6 +283,7 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Spot::Contact { by: Some(by) } => {
             format!("{}, by {}", case.name_of(probe.body), case.name_of(*by))
         }
+        Spot::Boundary(index) => format!("boundary {} on what it holds", case.boundaries[*index].name),
     };
     let often =
         if probe.interval == 0.0 { "every step".into() } else { format!("every {}", time(probe.interval)) };
@@ -253,23 +294,13 @@ fn measure(case: &Case, kind: &MeasureKind) -> String {
     match kind {
         MeasureKind::Probe { probe, axis, feature, over } => {
             let axis = ["x", "y", "z"][axis.index()];
-            let of = format!("{axis} of probe {}", case.probes[*probe].name);
-            let what = match feature {
-                Feature::FirstCrossing => format!("when {of} first crosses zero"),
-                Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
-                Feature::Maximum => format!("the largest {of}"),
-                Feature::Minimum => format!("the smallest {of}"),
-                Feature::Duration => format!("for how long {of} is larger than half of its largest value"),
-                Feature::TurningPoint { extremum, index, .. } => {
-                    format!("{:?} number {index} of {of}", extremum).to_lowercase()
-                }
-                Feature::ValueAt { time: at } => format!("{of} at {}", time(*at)),
-            };
+            let what = featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name));
             over.map_or(what.clone(), |over| format!("{what}, over {}", short(over)))
         }
-        MeasureKind::MostTurns { probe, axis } => {
+        MeasureKind::Turns { probe, axis, feature } => {
             let axis = ["x", "y", "z"][axis.index()];
-            format!("the most turns of probe {} around the {axis} axis", case.probes[*probe].name)
+            let probe = &case.probes[*probe].name;
+            featured(feature, &format!("turns of probe {probe} around the {axis} axis"))
         }
         MeasureKind::KineticRatio => "kinetic energy at the end over that at the start".into(),
         MeasureKind::ContactStart => "when bodies first touch".into(),
@@ -277,6 +308,20 @@ fn measure(case: &Case, kind: &MeasureKind) -> String {
             format!("volume of {} at the end over that at rest", case.bodies[*body].name)
         }
         MeasureKind::ReboundSpeed { body } => format!("speed of {} at the end", case.bodies[*body].name),
+    }
+}
+
+fn featured(feature: &Feature, of: &str) -> String {
+    match feature {
+        Feature::FirstCrossing => format!("when {of} first crosses zero"),
+        Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
+        Feature::Duration => format!("for how long {of} is larger than half of its largest value"),
+        Feature::Maximum => format!("the largest {of}"),
+        Feature::Minimum => format!("the smallest {of}"),
+        Feature::TurningPoint { extremum, index, .. } => {
+            format!("{extremum:?} number {index} of {of}").to_lowercase()
+        }
+        Feature::ValueAt { time: at } => format!("{of} at {}", time(*at)),
     }
 }
 

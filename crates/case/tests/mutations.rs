@@ -9,14 +9,13 @@ use samples::parse;
 /// A case that is right and uses every table.
 const BASE: &str = r#"name = "all"
 dimension = 2
-formulation = "ul-non-hourglass"
 spacing = 0.1
 
 [parameters]
 p = 1
 
 [material.rubber]
-model = "linear-elastic"
+model = "neo-hookean"
 density = 1000
 youngs_modulus = 1e7
 poisson_ratio = 0.45
@@ -48,8 +47,18 @@ velocity = [0, 0]
 [[gravity]]
 acceleration = [0, 0]
 
+[[load]]
+region = "some"
+force = [0, 0]
+
 [time]
 end = 1
+
+[damping]
+probability = 0.5
+
+[quasi_static]
+increments = 2
 
 [monitor]
 zigzag = 0.1
@@ -120,20 +129,11 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
                 wrong.pop();
             }
         }
-        Kind::NamesOf(_) => wrong.extend([
-            "1",
-            "true",
-            "[]",
-            "[1]",
-            "{}",
-            "\"one\"",
-            "[\"nobody\"]",
-            "[\"one\", \"one\"]",
-            "[\"one\"]",
-        ]),
+        Kind::NamesOf(_) => wrong.extend(["1", "[]", "[1]", "{}", "\"one\"", "[\"nobody\"]", "[\"one\"]"]),
+        Kind::Flag => wrong.extend(["1", "\"true\"", "[]", "{}"]),
         Kind::True => wrong.extend(["false", "1", "\"true\"", "[]", "{}"]),
         Kind::OneOf(_) | Kind::Count => wrong.extend(["0", "-1", "1.5", "\"2\"", "[2]", "true", "{}"]),
-        Kind::Number(..) | Kind::OfProbe | Kind::AngleOfTime => {
+        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) | Kind::AngleOfTime => {
             wrong.extend(["true", "[1]", "{}", "nan", "inf", "\"\"", "\"2 +\""])
         }
         Kind::OfTime(_) => wrong.extend(["1", "[1]", "[\"x\", 0]", "[0, \"1/t\"]", "[true, 1]", "{}"]),
@@ -151,6 +151,17 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
             ]);
         }
         Kind::Pairs(_) => wrong.extend(["1", "[]", "[[0, 0], [1, 1]]", "[[0], [1], [2]]"]),
+        Kind::History => wrong.extend([
+            "1",
+            "[]",
+            "[1]",
+            "[[1]]",
+            "[[0, 0], [0, 1]]",
+            "[[1, 0], [0, 1]]",
+            "[[\"1 m\", 0]]",
+            "\"no such.csv\"",
+            "{}",
+        ]),
         Kind::Axes => wrong.extend(["1", "\"x\"", "[]", "[\"q\"]", "[1]", "[\"z\"]"]),
         Kind::Shape => wrong.extend(["1", "[]", "{}", "\"nowhere\"", "{ blob = {} }", "{ box = 1 }"]),
         Kind::Shapes => wrong.extend(["1", "[]", "{}"]),
@@ -165,7 +176,7 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
 /// Values of a wrong unit for a kind; angles and shares have no unit to be wrong in, but a mass is wrong everywhere.
 fn wrong_units(kind: &Kind) -> Vec<&'static str> {
     match kind {
-        Kind::Number(..) | Kind::OfProbe => vec!["\"3 kg\"", "\"3 W\"", "\"3 lightyears\""],
+        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) => vec!["\"3 kg\"", "\"3 W\"", "\"3 lightyears\""],
         Kind::AngleOfTime => vec!["\"3 kg\"", "\"3 m\""],
         Kind::Vector(_)
         | Kind::Pair(_)

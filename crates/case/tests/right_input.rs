@@ -5,6 +5,11 @@ mod samples;
 use case::*;
 use samples::{COLUMN, PLATE, PUNCH, RINGS, parse, parse_set};
 
+/// Total Lagrangian with this step and the defaults of the rest.
+fn marched(step: StepRule) -> March {
+    March::Total { step, calibration: Calibration::Paper, alpha: 10.0 }
+}
+
 #[test]
 fn rings_are_read_in_si() {
     let case = parse(RINGS).expect("right");
@@ -33,7 +38,7 @@ fn a_short_case_has_the_documented_defaults() {
     assert_eq!((case.title.as_str(), case.plane, case.spacing), ("plate", Some(Plane::Strain), 0.002));
     let scheme = case.bodies[0].scheme;
     assert_eq!((scheme.formulation, scheme.smoothing, scheme.cfl), (Formulation::TlHourglassFree, 1.15, 0.6));
-    assert_eq!(scheme.march, March::Total { step: StepRule::Paper });
+    assert_eq!(scheme.march, marched(StepRule::Paper));
     assert_eq!(case.bodies[0].fill, Fill::Lattice { origin: [0.0; 3] });
     let soft = &case.materials[0];
     assert_eq!((soft.density, soft.elastic.bulk_modulus, soft.elastic.shear_modulus), (1000.0, 3e6, 7e5));
@@ -48,7 +53,15 @@ fn a_short_case_has_the_documented_defaults() {
     assert_eq!(velocity(-0.01), 0.0);
     assert_eq!(velocity(0.1), 2.0 * (std::f64::consts::PI * 0.1 / (2.0 * 0.2)).sin());
     assert_eq!((case.probes[0].body, case.probes[0].interval), (0, 0.0));
-    assert_eq!(case.monitor, Monitor { zigzag: None, interval: 0.3 / 50.0 });
+    let calm = Monitor {
+        zigzag: 0.06,
+        bond_min: 0.3,
+        broken: 0.01,
+        stop: false,
+        interval: 0.3 / 50.0,
+        apart: (600, 0.3 / 10.0),
+    };
+    assert_eq!(case.monitor, calm);
     let names: Vec<&str> = case.regions.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["block", "strip"]);
 }
@@ -56,7 +69,7 @@ fn a_short_case_has_the_documented_defaults() {
 #[test]
 fn a_column_in_three_dimensions() {
     let case = parse(COLUMN).expect("right");
-    assert_eq!((case.plane, case.time.output, case.monitor.zigzag), (None, 0.05, Some(0.01)));
+    assert_eq!((case.plane, case.time.output, case.monitor.zigzag), (None, 0.05, 0.01));
     let ShapeSpec::Rotate { angle, axis, about, shape } = &case.bodies[0].shape else { panic!("a rotation") };
     assert_eq!((*angle, *axis, *about), (std::f64::consts::FRAC_PI_2, [0.0, 0.0, 1.0], [0.0; 3]));
     assert_eq!(**shape, ShapeSpec::Box { min: [-0.5, -0.5, 0.0], max: [0.5, 0.5, 6.0] });
@@ -116,7 +129,7 @@ fn defaults_follow_the_formulation_of_each_body() {
         .replace("step = \"paper\"\n", "")
         .replace("end = \"12 ms\"", "end = \"12 ms\"\nstep = \"paper\"");
     let case = parse(&mixed).expect("right");
-    assert_eq!(case.bodies[0].scheme.march, March::Total { step: StepRule::Paper });
+    assert_eq!(case.bodies[0].scheme.march, marched(StepRule::Paper));
     assert_eq!((case.bodies[0].scheme.smoothing, case.bodies[1].scheme.smoothing), (1.15, 1.3));
 }
 
@@ -127,7 +140,7 @@ fn keys_of_the_other_family_stay_legal_when_the_command_line_chooses_the_formula
         formulation: Some("tl-hourglass-free".into()),
     };
     let case = Case::parse("case.toml", RINGS, &total).expect("right");
-    assert_eq!(case.bodies[1].scheme.march, March::Total { step: StepRule::Stretch });
+    assert_eq!(case.bodies[1].scheme.march, marched(StepRule::Stretch));
     // The text as run repeats the run without the command line.
     let again = parse(case.case_text_as_run()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again.bodies[0].scheme, case.bodies[0].scheme);
@@ -144,6 +157,13 @@ fn keys_of_the_other_family_stay_legal_when_the_command_line_chooses_the_formula
 
 #[test]
 fn doubtful_cases_are_warned_about() {
+    let tuned = parse(&PLATE.replacen(
+        "dimension = 2",
+        "dimension = 2\nformulation = \"tl-ganzenmueller\"\nalpha = 25",
+        1,
+    ));
+    let told = tuned.expect("right").render_warnings(false);
+    assert!(told.contains("a number to be tuned") && told.contains("alpha = 25"), "{told}");
     let text = RINGS.replace("plane = \"papers\"\n", "").replace("nu = 0.4", "nu = 0.3");
     let case = parse(&text).expect("right");
     assert_eq!(case.warnings.len(), 2);
@@ -177,7 +197,7 @@ fn overrides_reach_every_kind_of_place() {
         "material.rubber.density=1.3 g/cm^3",
     ];
     let case = parse_set(RINGS, &set).expect("right");
-    assert_eq!((case.time.end, case.spacing, case.monitor.zigzag), (0.5, 0.0005, Some(0.01)));
+    assert_eq!((case.time.end, case.spacing, case.monitor.zigzag), (0.5, 0.0005, 0.01));
     let v0 = case.parameters.iter().find(|(name, _)| name == "v0").expect("there").1;
     assert_eq!(case.bodies[0].velocity.eval([0.0; 3], 0.0), [1.0, 2.0 * v0, 0.0]);
     assert_eq!(case.bodies[1].velocity.eval([0.0; 3], 0.0), [-3.0, 0.0, 0.0]);
@@ -266,4 +286,45 @@ fn a_file_that_is_not_there_is_an_error() {
     let error = Case::read(std::path::Path::new("no/such.toml"), &Overrides::default()).expect_err("no file");
     assert!(error.to_string().contains("cannot read the case file no/such.toml"), "{error}");
     assert_eq!(error.line(&error.diagnostics[0]), None);
+}
+
+#[test]
+fn boundaries_have_names_and_probes_of_them_record_reactions() {
+    let probes = r#"
+[[boundary]]
+name = "press"
+region = "strip"
+displacement = ["free", "-0.1*t"]
+[[probe]]
+name = "wall"
+of = "press"
+[[probe]]
+name = "twist"
+of = "press"
+quantity = "moment"
+interval = "1 ms"
+[[measure]]
+name = "strongest"
+probe = "wall"
+component = "y"
+kind = "minimum"
+[[measure]]
+name = "turned"
+probe = "twist"
+component = "z"
+kind = "turning-points"
+extremum = "maximum"
+prominence = "3 N*m"
+index = 1
+"#;
+    let case = parse(&format!("{PLATE}{probes}")).expect("right");
+    let names: Vec<&str> = case.boundaries.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(names, ["boundary-1", "press"]);
+    let probe = |i: usize| (&case.probes[i].spot, case.probes[i].quantity);
+    assert_eq!(probe(1), (&Spot::Boundary(1), Quantity::Reaction));
+    assert_eq!(probe(2), (&Spot::Boundary(1), Quantity::Moment));
+    let MeasureKind::Probe { axis, .. } = case.measures[2].kind else { panic!("{:?}", case.measures) };
+    assert_eq!(axis.index(), 2, "in the plane moments have one component");
+    let case = parse_set(COLUMN, &["monitor.stop=true", "monitor.broken=0.5"]).expect("right");
+    assert!(case.monitor.stop && case.monitor.broken == 0.5);
 }

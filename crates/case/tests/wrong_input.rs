@@ -84,6 +84,13 @@ const ROWS: &[Row] = &[
         "dimension = 2\n@reference_speed = 1",
         &["`reference_speed` belongs to updated"],
     ),
+    (PLATE, "dimension = 2", "dimension = 2\n@alpha = 5", &["`alpha` belongs to tl-ganzenmueller"]),
+    (
+        RINGS,
+        "dimension = 2",
+        "dimension = 2\n@calibration = \"lattice\"",
+        &["`calibration` belongs to tl-hourglass-free"],
+    ),
     (RINGS, "end = \"12 ms\"", "end = 1\n@step = \"paper\"", &["`step` belongs to total Lagrangian"]),
     (
         RINGS,

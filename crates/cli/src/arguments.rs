@@ -1,6 +1,8 @@
 //! The command line.
 
+use crate::rebuild::{Frames, range, view};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use report::View;
 use std::path::PathBuf;
 use taut::simulation::Numbers;
 
@@ -38,11 +40,8 @@ pub enum Command {
     Validate(ValidateOptions),
     /// Measure how fast this machine runs every formulation: see docs/performance.md
     Bench(BenchOptions),
-    /// Rebuild pictures and report of a run (later)
-    Report {
-        /// Result directory
-        dir: PathBuf,
-    },
+    /// Rebuild pictures and plots of a run, finished or not, from its files; or animate it
+    Report(ReportOptions),
 }
 
 /// What to run.
@@ -151,4 +150,50 @@ pub struct BenchOptions {
     /// Tables in Markdown
     #[arg(long)]
     pub markdown: bool,
+}
+
+/// How a run is animated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Animation {
+    /// One file, animation.gif
+    Gif,
+    /// A folder of pictures, animation/000000.png, ...
+    Frames,
+}
+
+/// What to draw, and how.
+#[derive(Debug, Args)]
+pub struct ReportOptions {
+    /// Result directory of a run
+    pub dir: PathBuf,
+    /// Quantity that colours the particles: Pressure, Velocity (its magnitude), Velocity.x, CauchyStress.xy, ...; may be given
+    /// several times
+    #[arg(long = "field", value_name = "NAME", default_value = "VonMisesStress")]
+    pub fields: Vec<String>,
+    /// Frames: start, middle, end, all, numbers and ranges of them, for instance 0,5,10-20 [default: start,middle,end; all in
+    /// an animation]
+    #[arg(long, value_name = "WHICH", value_delimiter = ',')]
+    pub frames: Vec<Frames>,
+    /// Where to look from: front, back, left, right, top, bottom, oblique, or AZIMUTH,ELEVATION in degrees [default: oblique in
+    /// space]
+    #[arg(long, value_name = "FROM", value_parser = view, allow_hyphen_values = true)]
+    pub view: Option<View>,
+    /// Show in light grey where the particles were at the start (in the plane)
+    #[arg(long)]
+    pub undeformed: bool,
+    /// Longer side of a picture, pixels, 400 to 4000 [default: 1200; 800 in an animation]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(400..=4000))]
+    pub size: Option<u16>,
+    /// Values at the ends of the colours, in SI units [default: the middle 99 % of each frame; of all frames in an animation]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
+    pub range: Option<[f64; 2]>,
+    /// One animated GIF, or a sequence of pictures
+    #[arg(long, value_name = "KIND")]
+    pub animation: Option<Animation>,
+    /// Where the pictures go [default: the result directory, where pictures of the same name are replaced]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// No messages
+    #[arg(long, short)]
+    pub quiet: bool,
 }

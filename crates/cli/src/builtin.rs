@@ -16,14 +16,31 @@ pub const CASES: &[(&str, &str)] = &[
     ("contact-bars", include_str!("../../../cases/contact-bars.toml")),
     ("contact-incline", include_str!("../../../cases/contact-incline.toml")),
     ("contact-fold", include_str!("../../../cases/contact-fold.toml")),
+    ("tl-pull-2d", include_str!("../../../cases/tl-pull-2d.toml")),
+    ("tl-pull-3d", include_str!("../../../cases/tl-pull-3d.toml")),
+    ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
 ];
 
+/// Reference curves of the built-in cases, by their paths.
+const CURVES: &[(&str, &str)] = &[
+    (
+        "../validation/tl-plate/reference/tip-res20.csv",
+        include_str!("../../../validation/tl-plate/reference/tip-res20.csv"),
+    ),
+    (
+        "../validation/tl-bending-column/reference/corner-res12-4layers.csv",
+        include_str!("../../../validation/tl-bending-column/reference/corner-res12-4layers.csv"),
+    ),
+    (
+        "../validation/ul-plate-2d/reference/tip-res20.csv",
+        include_str!("../../../validation/ul-plate-2d/reference/tip-res20.csv"),
+    ),
+];
+
 /// Benchmarks of the papers that are not there yet.
 const LATER: &[&str] = &[
-    "tl-pull-2d",
-    "tl-pull-3d",
     "tl-stent",
     "ul-plate-3d",
     "ul-hollow-balls",
@@ -39,7 +56,8 @@ const LATER: &[&str] = &[
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {
     let overrides = Overrides { set: options.set.clone(), formulation: options.formulation.clone() };
     let read = match CASES.iter().find(|(name, _)| *name == options.case) {
-        Some((name, text)) => Case::parse(&format!("{name}.toml (built in)"), text, &overrides),
+        Some((name, text)) => Case::parse(&format!("{name}.toml (built in)"), text, &overrides)
+            .and_then(|case| case.with_references(curves)),
         None if LATER.contains(&options.case.as_str()) => {
             return Err(Failure::Input(format!("the benchmark {} comes in a later version.", options.case)));
         }
@@ -47,6 +65,11 @@ pub fn read(options: &CaseOptions) -> Result<Case, Failure> {
         None => Case::read(Path::new(&options.case), &overrides),
     };
     read.map_err(|error| Failure::Input(error.render(colour())))
+}
+
+fn curves(file: &str) -> Result<String, String> {
+    let found = CURVES.iter().find(|(path, _)| *path == file);
+    found.map(|(_, text)| text.to_string()).ok_or_else(|| "it does not come with the program".to_string())
 }
 
 /// Whether messages may be coloured.

@@ -15,6 +15,7 @@ pub mod memory;
 mod new;
 mod pictures;
 mod progress;
+mod rebuild;
 mod run;
 mod schema;
 mod validate;
@@ -56,9 +57,7 @@ where
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),
-        Command::Report { .. } => Err(Failure::Input(
-            "`taut report` comes in a later version; `taut run` already draws the pictures.".into(),
-        )),
+        Command::Report(options) => rebuild::report(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

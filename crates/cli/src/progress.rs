@@ -6,6 +6,7 @@ use case::run::{Observer, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use output::Frame;
 use std::io::IsTerminal;
+use taut::simulation::Increment;
 
 /// Where progress goes.
 enum Shown {
@@ -88,6 +89,14 @@ impl Observer for Watcher {
             }
             Shown::Lines(_) => {}
         }
+    }
+
+    fn settled(&mut self, i: &Increment, of: u32) {
+        let how = if i.converged { "at rest" } else { "NOT at rest" };
+        self.line(&format!(
+            "increment {}/{of}  t = {:.4e} s  {how} after {} steps, unbalanced {:.1e}, motion {:.1e}",
+            i.number, i.time, i.steps, i.balance.force, i.balance.motion
+        ));
     }
 
     fn framed(&mut self, frame: Frame) {

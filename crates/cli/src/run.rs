@@ -60,6 +60,14 @@ fn tell(case: &Case, summary: &Summary, out: &std::path::Path) {
         summary.wall_seconds,
         summary.particle_steps_per_second / 1e6
     );
+    if let Some(s) = &summary.quasi_static {
+        say!(
+            "  {} of {} increments at rest; unbalanced forces at most {:.1e} of the stress",
+            s.converged,
+            s.increments,
+            s.worst_force
+        );
+    }
     for (name, measured) in &summary.measured {
         match (measured.value, &measured.reason) {
             (Some(value), _) if measured.unit == "1" => say!("  {name} = {value:.6}"),

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::OutputError;
+use crate::limited::{LONGEST_RESULT, read_bytes};
+use crate::vtp::Encoder;
+use crate::{Frame, OutputError};
 
 /// The directory that holds the results of one run, and of one run only.
 ///
@@ -61,6 +63,16 @@ impl ResultDir {
         Ok(path)
     }
 
+    /// Writes a frame by itself as the file `name` for ParaView, such as `culprit.vtp`; a file of that name is replaced.
+    ///
+    /// # Errors
+    /// [`OutputError::Inconsistent`] if an array does not fit the particles, [`OutputError::Name`], [`OutputError::Write`].
+    pub fn write_frame(&self, name: &str, frame: &Frame) -> Result<PathBuf, OutputError> {
+        frame.check()?;
+        let bytes = Encoder::default().encode(frame);
+        self.write(name, &bytes.map_err(|cause| OutputError::write(&self.path.join(name), cause))?)
+    }
+
     /// Writes `value` as indented JSON; numbers that are not finite become `null`.
     pub(crate) fn write_json(&self, name: &str, value: &impl Serialize) -> Result<PathBuf, OutputError> {
         let mut text =
@@ -108,7 +120,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 
 /// Reads what [`ResultDir::write_json`] wrote.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, OutputError> {
-    let text = fs::read(path).map_err(|cause| OutputError::read(path, cause))?;
+    let text = read_bytes(path, LONGEST_RESULT).map_err(|cause| OutputError::read(path, cause))?;
     serde_json::from_slice(&text).map_err(|cause| OutputError::read(path, cause))
 }
 

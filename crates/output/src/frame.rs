@@ -1,16 +1,23 @@
 //! The particles at one time, as plain data.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use crate::OutputError;
 
 /// Numbers of an [`Array`], flattened: the components of a particle stand together.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// Real numbers.
+    /// Real numbers; files hold them in single precision.
     F64(Vec<f64>),
-    /// Whole numbers, such as identities.
+    /// Real numbers in single precision.
+    F32(Vec<f32>),
+    /// Whole numbers.
     I64(Vec<i64>),
+    /// Real numbers that many frames share: worked on once, as long as it is the same `Arc`.
+    Shared(Arc<Vec<f32>>),
+    /// Whole numbers that many frames share, such as identities.
+    Whole(Arc<Vec<i32>>),
 }
 
 impl Values {
@@ -18,13 +25,27 @@ impl Values {
     pub fn len(&self) -> usize {
         match self {
             Self::F64(values) => values.len(),
+            Self::F32(values) => values.len(),
             Self::I64(values) => values.len(),
+            Self::Shared(values) => values.len(),
+            Self::Whole(values) => values.len(),
         }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// All of them as `f64`.
+    pub fn to_f64(&self) -> Vec<f64> {
+        match self {
+            Self::F64(values) => values.clone(),
+            Self::F32(values) => values.iter().map(|&value| f64::from(value)).collect(),
+            Self::I64(values) => values.iter().map(|&value| value as f64).collect(),
+            Self::Shared(values) => values.iter().map(|&value| f64::from(value)).collect(),
+            Self::Whole(values) => values.iter().map(|&value| f64::from(value)).collect(),
+        }
     }
 }
 
@@ -65,10 +86,7 @@ impl Array {
     /// The numbers of one component as `f64`, or all of them collapsed to a magnitude (Euclidean norm of
     /// the components) when there are several.
     pub fn magnitudes(&self) -> Vec<f64> {
-        let numbers: Vec<f64> = match &self.values {
-            Values::F64(values) => values.clone(),
-            Values::I64(values) => values.iter().map(|&value| value as f64).collect(),
-        };
+        let numbers = self.values.to_f64();
         if self.components <= 1 {
             return numbers;
         }

@@ -26,19 +26,24 @@
 mod directory;
 mod error;
 mod frame;
+mod listing;
 mod nullable;
 mod probe;
+mod reference;
 mod series;
 mod vtp;
 
+pub mod limited;
 pub mod manifest;
 pub mod summary;
 
 pub use directory::{ResultDir, write_atomically};
 pub use error::OutputError;
 pub use frame::{Array, Frame, Values};
+pub use listing::{Listed, Listing};
 pub use manifest::Manifest;
 pub use probe::{Column, ProbeTable, Table};
+pub use reference::Reference;
 pub use series::Series;
 pub use summary::Summary;
-pub use vtp::encoded_size;
+pub use vtp::{FrameFile, encoded_size};

@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::directory::checked;
+use crate::limited::{LONGEST_RESULT, read_text};
 use crate::{OutputError, ResultDir};
 
 /// A table `probes/NAME.csv` that grows by one row per sample.
@@ -28,7 +29,22 @@ impl ProbeTable {
     pub fn create(results: &ResultDir, name: &str, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let folder = results.path().join("probes");
         std::fs::create_dir_all(&folder).map_err(|cause| OutputError::write(&folder, cause))?;
-        let path = folder.join(format!("{}.csv", checked(name)?));
+        Self::new(folder.join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    /// The same for a table `NAME.csv` that stands beside the summary.
+    ///
+    /// # Errors
+    /// As [`ProbeTable::create`].
+    pub fn beside_summary(
+        results: &ResultDir,
+        name: &str,
+        columns: &[(&str, &str)],
+    ) -> Result<Self, OutputError> {
+        Self::new(results.path().join(format!("{}.csv", checked(name)?)), columns)
+    }
+
+    fn new(path: PathBuf, columns: &[(&str, &str)]) -> Result<Self, OutputError> {
         let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
             Ok(file) => file,
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {
@@ -109,21 +125,28 @@ impl Table {
     /// # Errors
     /// [`OutputError::Read`] with the line, if it is no such table.
     pub fn read(path: &Path) -> Result<Self, OutputError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| OutputError::read(path, cause))?;
-        Self::parse(&text).map_err(|problem| OutputError::read(path, problem))
+        let text = read_text(path, LONGEST_RESULT).map_err(|cause| OutputError::read(path, cause))?;
+        Self::parse(&text, 0).map_err(|problem| OutputError::read(path, problem))
     }
 
-    fn parse(text: &str) -> Result<Self, String> {
+    /// Reads the text of a table that begins after so many lines of its file.
+    pub(crate) fn parse(text: &str, before: usize) -> Result<Self, String> {
         let complete = text.rfind('\n').map_or("", |end| &text[..end]);
         let mut lines = complete.lines();
-        let head = lines.next().filter(|line| line.starts_with("time [s]")).ok_or("line 1 names no time")?;
+        let head = lines.next().filter(|line| line.starts_with("time [s]"));
+        let head = head.ok_or_else(|| format!("line {} names no time", before + 1))?;
         let mut table = Self { times: Vec::new(), columns: head.split(',').skip(1).map(column).collect() };
         for (index, line) in lines.enumerate() {
             let row: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
-            let row = row.map_err(|_| format!("line {} holds something that is no number", index + 2))?;
+            let row =
+                row.map_err(|_| format!("line {} holds something that is no number", before + index + 2))?;
             if row.len() != table.columns.len() + 1 {
                 let expected = table.columns.len() + 1;
-                return Err(format!("line {} has {} values instead of {expected}", index + 2, row.len()));
+                return Err(format!(
+                    "line {} has {} values instead of {expected}",
+                    before + index + 2,
+                    row.len()
+                ));
             }
             table.times.push(row[0]);
             for (column, &value) in table.columns.iter_mut().zip(&row[1..]) {
@@ -181,10 +204,10 @@ mod tests {
 
     #[test]
     fn a_torn_last_line_is_ignored_and_nonsense_is_named() {
-        let torn = Table::parse("time [s],x [m]\n0.0,1.0\n0.5,1.").unwrap();
+        let torn = Table::parse("time [s],x [m]\n0.0,1.0\n0.5,1.", 0).unwrap();
         assert_eq!((torn.times, &torn.columns[0].values), (vec![0.0], &vec![1.0]));
-        assert!(Table::parse("time [s],x [m]\n0.0,1.0\n0.5,one\n").unwrap_err().contains("line 3"));
-        assert!(Table::parse("").is_err());
+        assert!(Table::parse("time [s],x [m]\n0.0,1.0\n0.5,one\n", 0).unwrap_err().contains("line 3"));
+        assert!(Table::parse("", 0).is_err());
         assert!(Table::read(Path::new("/nowhere/tip.csv")).unwrap_err().to_string().contains("tip.csv"));
     }
 

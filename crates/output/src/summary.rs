@@ -56,12 +56,15 @@ pub struct Energy {
     /// What is missing in the balance: initial + external_work - dissipated - final.
     #[serde(deserialize_with = "nullable::number")]
     pub residual: f64,
-    /// Samples, one whenever the disorder is measured: (time, kinetic, strain, kinetic + strain + contact).
+    /// The largest |residual| of all samples, over the largest energy that was put in: at the start and from outside.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub worst_residual: f64,
+    /// Samples, one with every frame and every measurement of disorder: (time, kinetic, strain, kinetic + strain + contact).
     #[serde(default, deserialize_with = "nullable::energies")]
     pub history: Vec<[f64; 4]>,
 }
 
-/// A vector that should not change, before and after.
+/// A momentum, and whether it is what came from outside.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Balance {
@@ -74,17 +77,31 @@ pub struct Balance {
     /// Length of the difference.
     #[serde(deserialize_with = "nullable::number")]
     pub drift: f64,
+    /// What constraints and body forces gave.
+    #[serde(default, deserialize_with = "nullable::vector")]
+    pub impulse: [f64; 3],
+    /// Length of what is missing in the balance at the end: initial + impulse - final.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub residual: f64,
+    /// The largest of all samples of what is missing, over `scale`.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub worst_residual: f64,
+    /// The largest of all samples of the sum of m |v| (angular: m |x| |v|), and of the impulse.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub scale: f64,
 }
 
 impl Balance {
-    /// From the vectors at the start and at the end.
-    pub fn new(initial: [f64; 3], at_end: [f64; 3]) -> Self {
-        let square = |i: usize| (at_end[i] - initial[i]).powi(2);
-        Self { initial, at_end, drift: (square(0) + square(1) + square(2)).sqrt() }
+    /// From the vectors at the start and at the end, and what came from outside in between.
+    pub fn new(initial: [f64; 3], at_end: [f64; 3], impulse: [f64; 3]) -> Self {
+        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let change: [f64; 3] = std::array::from_fn(|i| at_end[i] - initial[i]);
+        let missing = std::array::from_fn(|i| change[i] - impulse[i]);
+        Self { initial, at_end, impulse, drift: length(change), residual: length(missing), ..Self::default() }
     }
 }
 
-/// Momentum of the whole system. Supports and loads change it; bodies among themselves must not.
+/// Momentum of the whole system. What supports and loads give changes it; bodies among themselves must not.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Momentum {
@@ -169,6 +186,27 @@ impl Measured {
     }
 }
 
+/// How a quasi-static run came to rest.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settled {
+    /// Increments of the case.
+    pub increments: u32,
+    /// Those that came to rest.
+    pub converged: u32,
+    /// What counted as rest.
+    #[serde(deserialize_with = "nullable::number")]
+    pub tolerance: f64,
+    /// Largest share of unbalanced forces at the end of an increment.
+    #[serde(deserialize_with = "nullable::number")]
+    pub worst_force: f64,
+    /// Largest root of kinetic over elastic energy at the end of an increment.
+    #[serde(deserialize_with = "nullable::number")]
+    pub worst_motion: f64,
+    /// (time, steps, share of unbalanced forces) of each increment.
+    pub history: Vec<[f64; 3]>,
+}
+
 /// Why a run did not reach its end.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -221,6 +259,9 @@ pub struct Summary {
     pub momentum: Momentum,
     /// How orderly the particles stayed.
     pub disorder: Disorder,
+    /// How a quasi-static run came to rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quasi_static: Option<Settled>,
     /// Results that the case asked for, by name.
     pub measured: BTreeMap<String, Measured>,
     /// What the user should know although the run went on.
@@ -261,7 +302,10 @@ mod tests {
             case: "ul-plate-2d".to_string(),
             particles: 1 << 40,
             disorder: Disorder { zigzag_rms: worst, ..Disorder::default() },
-            momentum: Momentum { linear: Balance::new([0.0; 3], [3.0, 0.0, 4.0]), ..Momentum::default() },
+            momentum: Momentum {
+                linear: Balance::new([0.0; 3], [3.0, 0.0, 4.0], [3.0, 0.0, 3.0]),
+                ..Momentum::default()
+            },
             measured,
             status: Status::Done,
             error: Some(Failure { message: "stopped".to_string(), ..Failure::default() }),
@@ -297,6 +341,7 @@ mod tests {
         }
         assert_eq!(json["status"], "done");
         assert_eq!(json["momentum"]["linear"]["drift"], 5.0);
+        assert_eq!(json["momentum"]["linear"]["residual"], 1.0);
         assert!(json["measured"]["tip_max"]["value"].is_null());
     }
 

@@ -59,6 +59,10 @@ impl Vtp {
         self.bytes(name).chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
     }
 
+    fn i32s(&self, name: &str) -> Vec<i32> {
+        self.bytes(name).chunks(4).map(|b| i32::from_le_bytes(b.try_into().unwrap())).collect()
+    }
+
     fn i64s(&self, name: &str) -> Vec<i64> {
         self.bytes(name).chunks(8).map(|b| i64::from_le_bytes(b.try_into().unwrap())).collect()
     }
@@ -78,6 +82,8 @@ fn frame(n: usize) -> Frame {
                 vec![[1.0, f64::NAN, 3., 4., 5., 6., 7., 8., 9.]; n],
             ),
             Array::scalar("ParticleId", "1", Values::I64((0..n as i64).map(|i| i64::MAX - i).collect())),
+            Array::scalar("Body", "1", Values::Whole((0..n as i32).rev().collect::<Vec<_>>().into())),
+            Array::scalar("ParticleSpacing", "m", Values::Shared(vec![0.1; n].into())),
         ],
     }
 }
@@ -97,14 +103,15 @@ fn every_number_comes_back() {
         let vtp = written(&frame);
         assert_eq!(vtp.f64s("Points"), frame.points.as_flattened());
         assert_eq!(vtp.attribute("Points", "type"), "Float64");
-        assert_eq!(vtp.i64s("connectivity"), (0..n as i64).collect::<Vec<_>>());
-        assert_eq!(vtp.i64s("offsets"), (1..=n as i64).collect::<Vec<_>>());
+        assert_eq!(vtp.i32s("connectivity"), (0..n as i32).collect::<Vec<_>>());
+        assert_eq!(vtp.i32s("offsets"), (1..=n as i32).collect::<Vec<_>>());
         for array in &frame.arrays {
             assert_eq!(vtp.attribute(&array.name, "NumberOfComponents"), array.components.to_string());
             match &array.values {
                 Values::I64(values) => assert_eq!(&vtp.i64s(&array.name), values),
-                Values::F64(values) => {
-                    let expected: Vec<u32> = values.iter().map(|&x| (x as f32).to_bits()).collect();
+                Values::Whole(values) => assert_eq!(&vtp.i32s(&array.name), &**values),
+                real => {
+                    let expected: Vec<u32> = real.to_f64().iter().map(|&x| (x as f32).to_bits()).collect();
                     let found: Vec<u32> = vtp.f32s(&array.name).into_iter().map(f32::to_bits).collect();
                     assert_eq!(found, expected);
                 }

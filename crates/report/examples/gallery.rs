@@ -67,6 +67,18 @@ fn draw(folder: &Path, name: &str, frame: &Frame, view: Option<View>) -> Result<
     write_png(&picture(frame, &options), &folder.join(format!("{name}.png")))
 }
 
+/// Ten particles, and a million: both have to be readable.
+fn extremes() -> [(&'static str, Frame, Option<View>); 4] {
+    let few = (0..10).map(|i| ([0.01 * f64::from(i), 0.001 * f64::from(i * i), 0.0], f64::from(i - 3) * 1e5));
+    let few: Vec<_> = few.collect();
+    [
+        ("ten-discs", frame(0.0, 0.01, few.clone()), None),
+        ("ten-balls", frame(0.0, 0.01, few), Some(View::default())),
+        ("million-discs", bent_plate(0.2, 0.02, 316), None),
+        ("million-balls", twisted_column(1.0, 6.0, 55), Some(View::default())),
+    ]
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let argument = std::env::args_os().nth(1).ok_or("the directory to draw into is missing")?;
     let folder = Path::new(&argument);
@@ -76,6 +88,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     draw(folder, "twisted-column", &twisted_column(1.0, 6.0, 12), Some(View::default()))?;
     draw(folder, "fine-column", &twisted_column(1.0, 6.0, 30), Some(View::default()))?;
     draw(folder, "plate-in-space", &bent_plate(0.2, 0.02, 10), Some(View::default()))?;
-    plot_probe("Tip of the plate", &swing(), &folder.join("swing.svg"))?;
+    for (name, frame, view) in extremes() {
+        let start = std::time::Instant::now();
+        draw(folder, name, &frame, view)?;
+        println!("{name}: {} particles in {:.2} s", frame.points.len(), start.elapsed().as_secs_f64());
+    }
+    plot_probe("Tip of the plate", &swing(), None, &folder.join("swing.svg"))?;
     Ok(())
 }

@@ -1,7 +1,8 @@
-//! The colour map: from dark blue over green to light yellow, even to the eye.
+//! The colour maps: from dark blue over green to light yellow for amounts, from blue over light grey to orange for what has a sign;
+//! both even to the eye.
 //!
-//! It is a path through the OKLCh colour space (Ottosson 2020, <https://bottosson.github.io/posts/oklab/>):
-//! lightness rises evenly, hue turns evenly, so equal differences of the value look equally different, also
+//! They are paths through the OKLCh colour space (Ottosson 2020, <https://bottosson.github.io/posts/oklab/>):
+//! lightness changes evenly with the value (with its size, where it has a sign), so equal differences of the value look equally different, also
 //! in grey and to most colour-blind readers.
 
 /// Red, green and blue, 0 to 255, sRGB.
@@ -16,8 +17,22 @@ pub(crate) struct ColourMap {
 }
 
 impl ColourMap {
-    /// The map in 256 steps.
-    pub(crate) fn new() -> Self {
+    /// The map for amounts, in 256 steps.
+    pub(crate) fn amounts() -> Self {
+        Self::along(amount)
+    }
+
+    /// The map for what has a sign: zero is in the middle.
+    pub(crate) fn signed() -> Self {
+        Self::along(sign)
+    }
+
+    /// The map that fits values between these ends.
+    pub(crate) fn of_range([low, high]: [f64; 2]) -> Self {
+        if low == -high && high > 0.0 { Self::signed() } else { Self::amounts() }
+    }
+
+    fn along(path: fn(f64) -> [f64; 3]) -> Self {
         Self { table: (0..256).map(|i| to_srgb(to_linear(path(f64::from(i) / 255.0)))).collect() }
     }
 
@@ -30,9 +45,18 @@ impl ColourMap {
     }
 }
 
-/// The point of the path at `t`, in OKLab.
-fn path(t: f64) -> [f64; 3] {
-    let lightness = 0.30 + 0.62 * t;
+/// The point of the path of blue and orange at `t`, in OKLab: two hues that all readers tell apart.
+fn sign(t: f64) -> [f64; 3] {
+    let size = (2.0 * t - 1.0).abs();
+    let hue = if t < 0.5 { 255f64 } else { 50.0 }.to_radians();
+    // As colourful as sRGB allows in either hue, so that both sides weigh the same.
+    let chroma = (0.35 * size).min(0.19 - 0.09 * size);
+    [0.88 - 0.48 * size, chroma * hue.cos(), chroma * hue.sin()]
+}
+
+/// The point of the path of amounts at `t`, in OKLab.
+fn amount(t: f64) -> [f64; 3] {
+    let lightness = 0.34 + 0.58 * t;
     let hue = (285.0 - 182.0 * t).to_radians();
     // About as colourful as sRGB allows along this path; the blue-green middle allows least.
     let chroma = 0.13 - 0.19 * t + 0.24 * t * t;
@@ -89,18 +113,31 @@ mod tests {
     }
 
     #[test]
-    fn no_colour_of_the_map_is_cut_off() {
-        for i in 0..256 {
+    fn no_colour_of_the_maps_is_cut_off() {
+        for (path, i) in [amount, sign].into_iter().flat_map(|path| (0..256).map(move |i| (path, i))) {
             let linear = to_linear(path(f64::from(i) / 255.0));
             assert!(linear.iter().all(|x| (0.0..=1.0).contains(x)), "{i}: {linear:?}");
         }
     }
 
     #[test]
+    fn both_signs_are_equally_dark() {
+        // 8-bit colours round by up to 0.4 of CIE lightness; OKLab and CIE disagree between hues by about 5.
+        let map = ColourMap::signed();
+        for i in 0..=8 {
+            let size = f64::from(i) / 16.0;
+            let [low, high] = [0.5 - size, 0.5 + size].map(|t| 116.0 * luminance(map.at(t)).cbrt() - 16.0);
+            assert!((low - high).abs() < 6.0, "{size}: {low} and {high}");
+        }
+        assert!(ColourMap::of_range([-2.0, 2.0]).at(0.0) == map.at(0.0));
+        assert!(ColourMap::of_range([0.0, 2.0]).at(0.0) == ColourMap::amounts().at(0.0));
+    }
+
+    #[test]
     fn lightness_rises_evenly() {
         // CIE lightness, a measure that the map was not built with; it agrees with OKLab's only roughly,
         // and 8-bit colours round by up to 0.4 each, so sixteen steps are compared within 35 %.
-        let map = ColourMap::new();
+        let map = ColourMap::amounts();
         let lightness = |i: i32| 116.0 * luminance(map.at(f64::from(i) / 16.0)).cbrt() - 16.0;
         let mean = (lightness(16) - lightness(0)) / 16.0;
         for i in 0..16 {
@@ -111,7 +148,7 @@ mod tests {
 
     #[test]
     fn every_input_has_a_colour() {
-        let map = ColourMap::new();
+        let map = ColourMap::amounts();
         assert_eq!(map.at(f64::NAN), NO_NUMBER);
         assert_eq!(map.at(-5.0), map.at(0.0));
         assert_eq!(map.at(f64::INFINITY), map.at(1.0));

@@ -6,7 +6,7 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_wid
 
 use crate::ReportError;
 use crate::colours::Rgb;
-use crate::palette::{Indexed, indexed};
+use crate::palette::{MOST, Palette};
 
 /// An image of 8-bit sRGB pixels, rows from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,9 +17,15 @@ pub struct Image {
 }
 
 impl Image {
+    /// An image of these pixels.
+    pub(crate) fn new(width: usize, height: usize, pixels: Vec<u8>) -> Self {
+        debug_assert_eq!(pixels.len(), 3 * width * height);
+        Self { width, height, pixels }
+    }
+
     /// A white image.
     pub(crate) fn white(width: usize, height: usize) -> Self {
-        Self { width, height, pixels: vec![255; 3 * width * height] }
+        Self::new(width, height, vec![255; 3 * width * height])
     }
 
     /// Pixels from left to right.
@@ -77,6 +83,21 @@ impl Image {
                     self.blend(at[0] + index * font.width() + x, at[1] + y, colour, ink);
                 }
             }
+        }
+    }
+
+    /// Draws a line, two pixels wide, from one point to another (pixels, from the top left).
+    pub(crate) fn line(&mut self, [from, to]: [[f64; 2]; 2], colour: Rgb) {
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let square = (along[0] * along[0] + along[1] * along[1]).max(1e-9);
+        let bounds = |k: usize| {
+            (from[k].min(to[k]) - 2.0).max(0.0) as usize..(from[k].max(to[k]) + 3.0).max(0.0) as usize
+        };
+        for (x, y) in bounds(1).flat_map(|y| bounds(0).map(move |x| (x, y))) {
+            let [dx, dy] = [x as f64 + 0.5 - from[0], y as f64 + 0.5 - from[1]];
+            let nearest = ((dx * along[0] + dy * along[1]) / square).clamp(0.0, 1.0);
+            let far = (dx - nearest * along[0]).hypot(dy - nearest * along[1]);
+            self.blend(x, y, colour, ((1.5 - far).clamp(0.0, 1.0) * 255.0) as u8);
         }
     }
 
@@ -148,12 +169,13 @@ pub fn write_png(image: &Image, path: &Path) -> Result<(), ReportError> {
 }
 
 fn encode(image: &Image) -> Result<Vec<u8>, png::EncodingError> {
-    let Indexed { palette, indices } = indexed(&image.pixels);
+    let mut palette = Palette::new([image.pixels()], MOST);
+    let indices = palette.indices(&image.pixels);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(palette);
+    encoder.set_palette(palette.colours);
     encoder.set_compression(png::Compression::High);
     // Differences of palette numbers mean nothing.
     encoder.set_filter(png::Filter::NoFilter);

@@ -8,12 +8,11 @@ use crate::scale::{Scale, quantity};
 pub(crate) const INK: Rgb = [25, 25, 25];
 pub(crate) const GREY: Rgb = [110, 110, 110];
 
-/// The title and a smaller line below it.
-pub(crate) fn header(image: &mut Image, title: &str, below: &str) {
-    let width = image.width() - 2 * MARGIN;
-    image.text([MARGIN, MARGIN / 2 + GAP], &Font::Large.fit(title, width), Font::Large, INK);
+/// The title and a smaller line below it, `room` pixels wide at most.
+pub(crate) fn header(image: &mut Image, [title, below]: [&str; 2], room: usize) {
+    image.text([MARGIN, MARGIN / 2 + GAP], &Font::Large.fit(title, room), Font::Large, INK);
     let line = [MARGIN, MARGIN / 2 + GAP + Font::Large.height() + GAP / 2];
-    image.text(line, &Font::Small.fit(below, width), Font::Small, GREY);
+    image.text(line, &Font::Small.fit(below, room), Font::Small, GREY);
 }
 
 /// What the colours mean.
@@ -28,8 +27,8 @@ pub(crate) struct Colours<'a> {
     pub(crate) note: &'a [&'a str],
 }
 
-/// Ticks of the colour bar, both ends included.
-const TICKS: usize = 5;
+/// Steps between ticks of the colour bar, about.
+const STEPS: f64 = 5.0;
 
 impl Colours<'_> {
     /// Draws the bar with its caption and ticks.
@@ -38,12 +37,13 @@ impl Colours<'_> {
         let scale = Scale::new(low.abs().max(high.abs()), self.unit);
         self.gradient(image, layout, map);
         self.caption(image, layout, &scale);
-        let ticks = if high > low { TICKS } else { 1 };
-        let step = (high / scale.divisor - low / scale.divisor) / (TICKS - 1) as f64 * scale.divisor;
-        for tick in 0..ticks {
-            let along = if ticks == 1 { 0.5 } else { tick as f64 / (TICKS - 1) as f64 };
-            let value = low * (1.0 - along) + high * along;
-            label(image, layout, along, &scale.label(value, step));
+        if high <= low {
+            label(image, layout, 0.5, &scale.label(low, 0.0));
+            return;
+        }
+        let step = round_step((high - low) / STEPS);
+        for value in ticks(low, high, step) {
+            label(image, layout, (value - low) / (high - low), &scale.label(value, step));
         }
     }
 
@@ -85,6 +85,24 @@ impl Colours<'_> {
     }
 }
 
+/// The multiples of `step` from `low` to `high`.
+fn ticks(low: f64, high: f64, step: f64) -> Vec<f64> {
+    // A hair of air, so that an end which is a multiple counts as one in spite of rounding.
+    let [first, last] = [(low / step - 1e-6).ceil(), (high / step + 1e-6).floor()];
+    let count =
+        if first.is_finite() && last >= first { (last - first).min(4.0 * STEPS) as usize + 1 } else { 0 };
+    (0..count).map(|k| ((first + k as f64) * step).clamp(low, high)).collect()
+}
+
+/// The number of the form 1, 2, 2.5, 5 times a power of ten that is next to `step`.
+fn round_step(step: f64) -> f64 {
+    let power = 10f64.powf(step.log10().floor());
+    let lead = step / power;
+    let nearest =
+        [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().min_by(|a, b| (a - lead).abs().total_cmp(&(b - lead).abs()));
+    nearest.unwrap_or(1.0) * power
+}
+
 /// A tick and its number at `along` (0 to 1) of the bar.
 fn label(image: &mut Image, layout: &Layout, along: f64, text: &str) {
     let Rect { at, size } = layout.bar;
@@ -100,6 +118,23 @@ fn label(image: &mut Image, layout: &Layout, along: f64, text: &str) {
     let half = font.measure(text) / 2;
     let last = (image.width() - GAP).saturating_sub(2 * half);
     image.text([x.saturating_sub(half).min(last), at[1] + size[1] + GAP / 2 + 1], text, font, INK);
+}
+
+/// Width of the corner that the tripod takes from the header, pixels.
+pub(crate) const TRIPOD: usize = 120;
+
+/// The axes of the world, as they are seen, in the upper right corner.
+pub(crate) fn tripod(image: &mut Image, axes: &[[f64; 3]; 3]) {
+    const LENGTH: f64 = 28.0;
+    let foot = [(image.width() - MARGIN) as f64 - 50.0, 54.0];
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let seen = [axes[0][axis] * LENGTH, -axes[1][axis] * LENGTH];
+        image.line([foot, [foot[0] + seen[0], foot[1] + seen[1]]], GREY);
+        let label = [0, 1].map(|k| foot[k] + 1.3 * seen[k]);
+        let corner =
+            [label[0] - 0.5 * Font::Small.width() as f64, label[1] - 0.5 * Font::Small.height() as f64];
+        image.text(corner.map(|x| x.max(0.0) as usize), name, Font::Small, GREY);
+    }
 }
 
 /// A line of a round length and that length beside it. `per_pixel` is the length of a pixel, m.
@@ -136,6 +171,16 @@ fn round_below(length: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(ticks(0.02, 1.47, round_step(1.45 / STEPS)), [0.25, 0.5, 0.75, 1.0, 1.25]);
+        assert_eq!(ticks(-3.0, 3.0, round_step(6.0 / STEPS)), [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0]);
+        for (low, high) in [(0.0, f64::MAX), (-f64::MAX, f64::MAX), (1.0, 1.0 + f64::EPSILON), (0.0, 5e-324)]
+        {
+            assert!(ticks(low, high, round_step((high - low) / STEPS)).len() < 30);
+        }
+    }
 
     #[test]
     fn rulers_are_round() {

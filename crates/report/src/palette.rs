@@ -1,16 +1,16 @@
 //! From full colour to 256 colours chosen for the picture: a third of the file size, no difference to see.
 
 /// Colours per picture, as many as one byte can tell apart.
-const MOST: usize = 256;
-/// Bits per channel within which colours count as the same while the palette is chosen.
+pub(crate) const MOST: usize = 256;
+/// Bits per channel within which colours count as the same.
 const BITS: u32 = 6;
 
-/// An image as a list of colours and, for each pixel, which of them.
-pub(crate) struct Indexed {
+/// A few colours that stand for all.
+pub(crate) struct Palette {
     /// Red, green, blue of each colour.
-    pub(crate) palette: Vec<u8>,
-    /// One byte per pixel.
-    pub(crate) indices: Vec<u8>,
+    pub(crate) colours: Vec<u8>,
+    /// Which of them stands for each colour of [`BITS`] bits; `None` until it is asked for.
+    index_of: Vec<Option<u8>>,
 }
 
 /// Pixels of nearly the same colour.
@@ -31,7 +31,8 @@ struct Group {
     bins: Vec<(usize, Bin)>,
     /// Channel in which they differ most.
     widest: usize,
-    /// How much would be gained by splitting the group: pixels times the square of that difference.
+    /// How much would be gained by splitting the group: the square of that difference, times the root of the number of pixels, so
+    /// that small things (a colour bar) get colours too.
     spread: f64,
 }
 
@@ -46,7 +47,7 @@ impl Group {
         let ranges = [range(0), range(1), range(2)];
         let widest = (0..3).max_by(|&a, &b| ranges[a].total_cmp(&ranges[b])).unwrap_or(0);
         let count: u64 = bins.iter().map(|(_, bin)| bin.count).sum();
-        let spread = if bins.len() > 1 { count as f64 * ranges[widest].powi(2) } else { 0.0 };
+        let spread = if bins.len() > 1 { (count as f64).sqrt() * ranges[widest].powi(2) } else { 0.0 };
         Self { bins, widest, spread }
     }
 
@@ -71,35 +72,55 @@ impl Group {
     }
 }
 
-/// Chooses the colours by median cut (Heckbert 1982): the group that would gain most is cut in two until
-/// there are enough.
-pub(crate) fn indexed(pixels: &[u8]) -> Indexed {
-    let mut bins = vec![Bin::default(); 1 << (3 * BITS)];
-    for pixel in pixels.chunks_exact(3) {
-        let bin = &mut bins[key(pixel)];
-        bin.count += 1;
-        for (sum, &channel) in bin.sum.iter_mut().zip(pixel) {
-            *sum += u64::from(channel);
+impl Palette {
+    /// Chooses at most `most` colours for the pixels of these pictures, by median cut (Heckbert 1982): the group that would gain
+    /// most is cut in two until there are enough.
+    pub(crate) fn new<'a>(pictures: impl IntoIterator<Item = &'a [u8]>, most: usize) -> Self {
+        let mut bins = vec![Bin::default(); 1 << (3 * BITS)];
+        for pixel in pictures.into_iter().flat_map(|pixels| pixels.chunks_exact(3)) {
+            let bin = &mut bins[key(pixel)];
+            bin.count += 1;
+            for (sum, &channel) in bin.sum.iter_mut().zip(pixel) {
+                *sum += u64::from(channel);
+            }
         }
-    }
-    let used: Vec<(usize, Bin)> = bins.into_iter().enumerate().filter(|(_, bin)| bin.count > 0).collect();
-    let mut groups = vec![Group::new(used)];
-    while groups.len() < MOST {
-        let best = (0..groups.len()).max_by(|&a, &b| groups[a].spread.total_cmp(&groups[b].spread));
-        let Some(best) = best.filter(|&best| groups[best].spread > 0.0) else { break };
-        let halves = groups.swap_remove(best).split();
-        groups.extend(halves);
-    }
-    let mut index_of = vec![0u8; 1 << (3 * BITS)];
-    for (index, group) in groups.iter().enumerate() {
-        for (key, _) in &group.bins {
-            index_of[*key] = index as u8;
+        let used: Vec<(usize, Bin)> = bins.into_iter().enumerate().filter(|(_, bin)| bin.count > 0).collect();
+        let mut groups = vec![Group::new(used)];
+        while groups.len() < most {
+            let best = (0..groups.len()).max_by(|&a, &b| groups[a].spread.total_cmp(&groups[b].spread));
+            let Some(best) = best.filter(|&best| groups[best].spread > 0.0) else { break };
+            let halves = groups.swap_remove(best).split();
+            groups.extend(halves);
         }
+        let mut index_of = vec![None; 1 << (3 * BITS)];
+        for (index, group) in groups.iter().enumerate() {
+            for (key, _) in &group.bins {
+                index_of[*key] = Some(index as u8);
+            }
+        }
+        Self { colours: groups.iter().flat_map(Group::colour).collect(), index_of }
     }
-    Indexed {
-        palette: groups.iter().flat_map(Group::colour).collect(),
-        indices: pixels.chunks_exact(3).map(|pixel| index_of[key(pixel)]).collect(),
+
+    /// The number of the colour of each pixel; the nearest one for colours that the palette was not made for.
+    pub(crate) fn indices(&mut self, pixels: &[u8]) -> Vec<u8> {
+        let index = |pixel: &[u8]| {
+            let key = key(pixel);
+            self.index_of[key].unwrap_or_else(|| {
+                let nearest = nearest(&self.colours, pixel);
+                self.index_of[key] = Some(nearest);
+                nearest
+            })
+        };
+        pixels.chunks_exact(3).map(index).collect()
     }
+}
+
+fn nearest(colours: &[u8], pixel: &[u8]) -> u8 {
+    let far = |colour: &[u8]| -> u32 {
+        colour.iter().zip(pixel).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum()
+    };
+    let best = colours.chunks_exact(3).enumerate().min_by_key(|(_, colour)| far(colour));
+    best.map_or(0, |(index, _)| index as u8)
 }
 
 fn key(pixel: &[u8]) -> usize {
@@ -110,24 +131,27 @@ fn key(pixel: &[u8]) -> usize {
 mod tests {
     use super::*;
 
-    fn restored(pixels: &[u8]) -> Vec<u8> {
-        let image = indexed(pixels);
-        assert!(image.palette.len() <= 3 * MOST);
-        image.indices.iter().flat_map(|&i| &image.palette[3 * usize::from(i)..][..3]).copied().collect()
+    fn restored(palette: &mut Palette, pixels: &[u8]) -> Vec<u8> {
+        assert!(palette.colours.len() <= 3 * MOST);
+        let indices = palette.indices(pixels);
+        indices.iter().flat_map(|&i| &palette.colours[3 * usize::from(i)..][..3]).copied().collect()
     }
 
     #[test]
     fn few_colours_stay_exact() {
         let pixels = [[255, 255, 255], [0, 0, 0], [200, 30, 60], [255, 255, 255]].concat();
-        assert_eq!(restored(&pixels), pixels);
-        assert!(restored(&[]).is_empty());
+        let mut palette = Palette::new([&pixels[..]], MOST);
+        assert_eq!(restored(&mut palette, &pixels), pixels);
+        assert!(restored(&mut palette, &[]).is_empty());
+        assert_eq!(restored(&mut palette, &[190, 40, 70]), [200, 30, 60], "a colour of another picture");
     }
 
     #[test]
     fn many_colours_stay_close() {
         let pixels: Vec<u8> =
             (0..60_000u32).flat_map(|i| [(i / 240) as u8, (i % 240) as u8, (i / 480) as u8]).collect();
-        let far = restored(&pixels).iter().zip(&pixels).map(|(a, b)| a.abs_diff(*b)).max();
+        let mut palette = Palette::new([&pixels[..]], MOST);
+        let far = restored(&mut palette, &pixels).iter().zip(&pixels).map(|(a, b)| a.abs_diff(*b)).max();
         // 256 colours for a sheet of 250 x 240 x 125: cells of about 16 a side, cut unevenly by at most 2.
         assert!(far <= Some(20), "{far:?}");
     }

@@ -1,11 +1,14 @@
 //! One frame as a picture.
 
 use output::Frame;
+use rayon::prelude::*;
 
 use crate::colours::{ColourMap, Rgb};
+use crate::field::{Shown, shown};
 use crate::image::{Font, Image};
-use crate::layout::Layout;
-use crate::legend::{self, Colours};
+use crate::layout::{Layout, MARGIN};
+use crate::legend::{self, Colours, TRIPOD};
+use crate::range::Range;
 use crate::scale::quantity;
 use crate::splat::{Canvas, Finish, SAMPLES, Splat};
 use crate::view::{View, Window, project};
@@ -15,17 +18,19 @@ use crate::view::{View, Window, project};
 pub struct Picture {
     /// Stands above the picture.
     pub title: String,
-    /// The quantity that gives the colours; of a vector or tensor its magnitude.
-    pub array: String,
+    /// The quantity that gives the colours: `Pressure`; `Velocity` is its magnitude, `Velocity.x` or `CauchyStress.xy` a component.
+    pub field: String,
     /// From where; `None` is the plane view with flat discs, for two dimensions.
     pub view: Option<View>,
     /// Which part of the world; `None` is all particles of this frame. Give all pictures of a run the same.
     pub window: Option<Window>,
-    /// Values at the ends of the colours; `None` is the range of this frame without its outermost 0.5 % at
-    /// either end, which the picture then says.
-    pub range: Option<[f64; 2]>,
+    /// Values at the ends of the colours; `None` is [`typical_range`] of this frame.
+    pub range: Option<Range>,
     /// Length of the longer side, pixels; 400 to 4000.
     pub size: usize,
+    /// Whether to show where the particles came from, in light grey behind them; in the plane view, if the frame has a
+    /// `Displacement`.
+    pub undeformed: bool,
 }
 
 impl Default for Picture {
@@ -33,43 +38,65 @@ impl Default for Picture {
     fn default() -> Self {
         Self {
             title: String::new(),
-            array: "VonMisesStress".to_string(),
+            field: "VonMisesStress".to_string(),
             view: None,
             window: None,
             range: None,
             size: 1200,
+            undeformed: false,
         }
     }
 }
 
+/// The range of a quantity in a frame without its outermost 0.5 % at either end; `None` if the frame does not have it.
+pub fn typical_range(frame: &Frame, field: &str) -> Option<Range> {
+    shown(frame, field).ok().map(|shown| Range::typical(&shown.values))
+}
+
 /// Draws the particles of `frame`: discs of half a `ParticleSpacing` in the plane view, else shaded balls,
-/// coloured by a quantity, with title, time, colour bar and scale bar.
+/// coloured by a quantity, with title, time, colour bar, scale bar and axes.
 ///
 /// Anything can be drawn: particles whose position is not a number are left out, values that are not are
 /// grey, and without particles the picture says so.
 pub fn picture(frame: &Frame, options: &Picture) -> Image {
     let window = options.window.unwrap_or_else(|| Window::around(frame, options.view)).usable();
     let layout = Layout::new(window.size()[0] / window.size()[1], options.size);
-    let map = ColourMap::new();
     let mut image = Image::white(layout.image[0], layout.image[1]);
-    legend::header(&mut image, &options.title, &format!("t = {}", quantity(frame.time, "s")));
+    let room = layout.image[0] - 2 * MARGIN - if options.view.is_some() { TRIPOD } else { 0 };
+    legend::header(&mut image, [&options.title, &format!("t = {}", quantity(frame.time, "s"))], room);
     let sheet = Sheet::new(window, options.view, &layout);
-    let values = frame.array(&options.array).map(|array| array.magnitudes()).unwrap_or_default();
-    let range = options.range.unwrap_or_else(|| typical_range(&values));
-    image.paste(layout.plot.at, &sheet.particles(frame, |i| map.at(place(values.get(i).copied(), range))));
+    let shown = shown(frame, &options.field);
+    let values: &[f64] = shown.as_ref().map_or(&[], |shown| &shown.values);
+    let range = options.range.unwrap_or_else(|| Range::typical(values)).rounded();
+    let map = ColourMap::of_range(range.ends);
+    let colour = |i: usize| map.at(place(values.get(i).copied(), range.ends));
+    let start = if options.undeformed && options.view.is_none() { start(frame) } else { Vec::new() };
+    image.paste(layout.plot.at, &sheet.particles(frame, &start, colour));
     legend::ruler(&mut image, &layout, sheet.per_pixel);
-    match frame.array(&options.array) {
-        Some(array) => {
-            let cut = options.range.is_none() && outside(values.len()) > 0;
-            let note: &[&str] = if cut { &["0.5 to 99.5", "percentile"] } else { &[] };
-            Colours { name: &array.name, unit: &array.unit, range, note }.draw(&mut image, &layout, &map);
+    if options.view.is_some() {
+        legend::tripod(&mut image, &sheet.axes);
+    }
+    match &shown {
+        Ok(Shown { name, unit, .. }) => {
+            let note: &[&str] = if range.cut { &["0.5 to 99.5", "percentile"] } else { &[] };
+            Colours { name, unit, range: range.ends, note }.draw(&mut image, &layout, &map);
         }
-        None => remark(&mut image, &layout, &format!("no {} in this frame", options.array)),
+        Err(problem) => remark(&mut image, &layout, problem),
     }
     if frame.points.is_empty() {
         remark(&mut image, &layout, "no particles");
     }
     image
+}
+
+/// Positions before any displacement; none if the frame does not say.
+fn start(frame: &Frame) -> Vec<[f64; 3]> {
+    let Some(moved) = frame.array("Displacement").filter(|array| array.components == 3) else {
+        return Vec::new();
+    };
+    let moved = moved.values.to_f64();
+    let back = |(point, moved): (&[f64; 3], &[f64; 3])| std::array::from_fn(|k| point[k] - moved[k]);
+    frame.points.iter().zip(moved.as_chunks::<3>().0).map(back).collect()
 }
 
 /// A line of text in the place of the colour bar's caption.
@@ -84,21 +111,10 @@ fn place(value: Option<f64>, [low, high]: [f64; 2]) -> f64 {
     if value.is_nan() || high > low { (value - low) / (high - low) } else { 0.5 }
 }
 
-/// The 0.5 and 99.5 percentiles of the values that are numbers; 0 and 0 if there are none.
-fn typical_range(values: &[f64]) -> [f64; 2] {
-    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    if finite.is_empty() {
-        return [0.0; 2];
-    }
-    finite.sort_by(f64::total_cmp);
-    let outside = outside(finite.len());
-    [finite[outside], finite[finite.len() - 1 - outside]]
-}
-
-/// How many of `n` values lie beyond either end of the colours: 0.5 %.
-fn outside(n: usize) -> usize {
-    n / 200
-}
+/// The colour of particles where they were at the start.
+const PALE: Rgb = [226, 226, 226];
+/// How far behind the others these are drawn, samples.
+const BEHIND: f64 = 1e4;
 
 /// The sheet of paper that particles are drawn on: how world lengths become pixels.
 struct Sheet {
@@ -118,28 +134,31 @@ impl Sheet {
         Self { axes: view.unwrap_or(View::PLANE).axes(), finish, window, size, per_pixel }
     }
 
-    /// The particles, with the colour of particle `i` from `colour(i)`.
-    fn particles(&self, frame: &Frame, colour: impl Fn(usize) -> Rgb) -> Image {
-        let mut canvas = Canvas::new(self.size[0], self.size[1]);
+    /// The particles, with the colour of particle `i` from `colour(i)`, before those at the places of the start.
+    fn particles(&self, frame: &Frame, start: &[[f64; 3]], colour: impl Fn(usize) -> Rgb + Sync) -> Image {
         let scale = SAMPLES as f64 / self.per_pixel;
         let (centre, half) = (self.window.centre(), self.size.map(|side| 0.5 * (side * SAMPLES) as f64));
         let spacings = frame.array("ParticleSpacing").map(|array| array.magnitudes()).unwrap_or_default();
         let largest = self.largest_radius(frame.points.len());
         // Depths are counted from some particle, since the buffer holds 7 digits only.
         let first = frame.points.iter().map(|&p| project(&self.axes, p)[2]).find(|z| z.is_finite());
-        for (i, &point) in frame.points.iter().enumerate() {
+        let at = |(i, &point): (usize, &[f64; 3])| {
             let p = project(&self.axes, point);
             let spacing = spacings.get(i).copied().filter(|s| s.is_finite() && *s > 0.0);
-            let splat = Splat {
+            Splat {
                 x: half[0] + (p[0] - centre[0]) * scale,
                 y: half[1] - (p[1] - centre[1]) * scale,
                 depth: (p[2] - first.unwrap_or(0.0)) * scale,
                 radius: closed(0.5 * spacing.unwrap_or(largest).min(largest) * scale),
-                colour: colour(i),
-            };
-            canvas.draw(&splat, self.finish);
-        }
-        canvas.image()
+                colour: PALE,
+            }
+        };
+        // Behind everything, far enough for the buffer to tell and near enough for it to tell them from each other.
+        let behind = |splat: Splat| Splat { depth: splat.depth - BEHIND, ..splat };
+        let mut splats: Vec<Splat> = start.par_iter().enumerate().map(|p| behind(at(p))).collect();
+        let coloured = frame.points.par_iter().enumerate().map(|p| Splat { colour: colour(p.0), ..at(p) });
+        splats.par_extend(coloured);
+        Canvas { size: self.size, finish: self.finish }.image(&splats)
     }
 
     /// An upper bound for a radius, m: `n` particles that fill a cube as large as the window are half as
@@ -199,30 +218,41 @@ mod tests {
         let frame = Frame { time: f64::NAN, ..frame(vec![[0.0; 3], [1.0; 3]], vec![1.0, 2.0], 0.5) };
         for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
             let window = Some(Window { min: [0.0; 2], max: [bad; 2] });
-            picture(&frame, &Picture { window, range: Some([1.0, bad]), size: 400, ..Picture::default() });
+            picture(
+                &frame,
+                &Picture {
+                    window,
+                    range: Some(Range { ends: [1.0, bad], cut: false }),
+                    size: 400,
+                    ..Picture::default()
+                },
+            );
         }
-        picture(&frame, &Picture { array: "Nothing".to_string(), size: 0, ..Picture::default() });
+        picture(&frame, &Picture { field: "Nothing".to_string(), size: 0, ..Picture::default() });
     }
 
     #[test]
     fn colours_follow_the_values_and_grey_means_no_number() {
         let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
         let image = drawn(&frame(points.clone(), vec![1.0, f64::NAN, 3.0], 1.0), None);
-        let map = ColourMap::new();
+        let map = ColourMap::amounts();
         for colour in [map.at(0.0), map.at(1.0), crate::colours::NO_NUMBER] {
             assert!(shows(&image, colour), "{colour:?}");
         }
-        let constant = drawn(&frame(points, vec![5.0; 3], 1.0), None);
+        let constant = drawn(&frame(points.clone(), vec![5.0; 3], 1.0), None);
         assert!(shows(&constant, map.at(0.5)));
+        let signed = drawn(&frame(points, vec![-2.0, 0.0, 1.0], 1.0), None);
+        assert!(shows(&signed, ColourMap::signed().at(0.5)), "zero is in the middle");
     }
 
     #[test]
-    fn outliers_do_not_flatten_the_colours() {
-        let mut values: Vec<f64> = (0..1000).map(f64::from).collect();
-        values.extend([1e30, -1e30, f64::NAN]);
-        // 0.5 % of 1002 numbers is 5 at either end.
-        assert_eq!(typical_range(&values), [4.0, 995.0]);
-        assert_eq!(typical_range(&[f64::NAN]), [0.0; 2]);
+    fn the_start_is_pale_and_behind() {
+        let mut frame = frame(vec![[0.0; 3], [3.0, 0.0, 0.0]], vec![1.0, 2.0], 1.0);
+        frame.arrays.push(Array::vector("Displacement", "m", vec![[-1.5, 0.0, 0.0], [0.0; 3]]));
+        let options = Picture { undeformed: true, size: 400, ..Picture::default() };
+        let image = picture(&frame, &options);
+        assert!(shows(&image, PALE) && shows(&image, ColourMap::amounts().at(1.0)));
+        assert!(!shows(&picture(&frame, &Picture { undeformed: false, ..options }), PALE));
     }
 
     #[test]

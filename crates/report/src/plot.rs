@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::path::Path;
 
-use output::{Column, Table};
+use output::{Column, Reference, Table};
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::ReportError;
@@ -25,33 +26,107 @@ const LINES: [RGBColor; 6] = [
 /// Most points that a line gets; more would not be seen but make large files.
 const MOST_POINTS: usize = 2000;
 
-/// Draws the columns of `table` over time into the SVG file `path`.
+/// Draws the columns of `table` over time into the SVG file `path`, and the curves of a reference that go with them, dashed, as far as
+/// the table goes.
 ///
 /// Values that are not finite leave gaps; a single sample is a dot; a table without samples gives empty
 /// axes. Long tables are thinned so that every extremum stays.
 ///
 /// # Errors
 /// [`ReportError::Write`] if the file cannot be written.
-pub fn plot_probe(title: &str, table: &Table, path: &Path) -> Result<(), ReportError> {
+pub fn plot_probe(
+    title: &str,
+    table: &Table,
+    reference: Option<&Reference>,
+    path: &Path,
+) -> Result<(), ReportError> {
+    let curves: Vec<Curve> =
+        table.columns.iter().enumerate().flat_map(|c| curves(c, table, reference)).collect();
     let mut svg = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        chart(title, table, &area).map_err(|cause| cause.to_string())
+        chart((title, reference), table, &curves, &area)
+            .and_then(|()| Ok(area.present()?))
+            .map_err(|cause| cause.to_string())
     };
     drawn.map_err(|cause| ReportError::Draw { what: path.display().to_string(), cause })?;
     Ok(output::write_atomically(path, svg.as_bytes())?)
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
-    let time = Axis::new("time", "s", table.times.iter().copied());
-    let value = value_axis(&table.columns);
+/// A line of the plot.
+struct Curve {
+    /// What the legend says.
+    label: String,
+    colour: RGBColor,
+    /// Reference curves are dashed.
+    dashed: bool,
+    /// Time and value, SI, without what cannot be drawn.
+    parts: Vec<Vec<(f64, f64)>>,
+}
+
+/// A column, and what goes with it.
+fn curves<'a>(
+    (index, column): (usize, &'a Column),
+    table: &'a Table,
+    reference: Option<&'a Reference>,
+) -> impl Iterator<Item = Curve> + 'a {
+    let colour = LINES[index % LINES.len()];
+    let label = legend(column, &table.columns);
+    let own = Curve { label, colour, dashed: false, parts: parts(&table.times, &column.values) };
+    let end = table.times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let others = reference.into_iter().flat_map(move |reference| {
+        reference.curves(&column.name).map(move |curve| {
+            let seen = reference
+                .table
+                .times
+                .iter()
+                .take_while(|&&time| time <= end || end == f64::NEG_INFINITY)
+                .count();
+            let values = &curve.values[..seen.min(curve.values.len())];
+            Curve {
+                label: format!("{}, reference", curve.name),
+                colour: RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                dashed: true,
+                parts: parts(&reference.table.times[..values.len()], values),
+            }
+        })
+    });
+    std::iter::once(own).chain(others)
+}
+
+/// One chart of all columns of a table.
+pub(crate) fn chart_of(title: &str, table: &Table, area: &Area) -> Drawn {
+    let curves: Vec<Curve> = table.columns.iter().enumerate().flat_map(|c| curves(c, table, None)).collect();
+    chart((title, None), table, &curves, area)
+}
+
+fn chart(
+    (title, reference): (&str, Option<&Reference>),
+    table: &Table,
+    curves: &[Curve],
+    area: &Area,
+) -> Drawn {
+    let all = || curves.iter().flat_map(|curve| curve.parts.iter().flatten());
+    let time = Axis::new("time", "s", all().map(|point| point.0));
+    let value = value_axis(&table.columns, all().map(|point| point.1));
     area.fill(&WHITE)?;
+    if let Some(source) =
+        reference.map(|reference| reference.source.as_str()).filter(|source| !source.is_empty())
+    {
+        let text = format!("reference: {}", shortened(source));
+        area.draw(&Text::new(
+            text,
+            (100, SIZE.1 as i32 - 20),
+            ("sans-serif", 14).into_font().color(&BLACK.mix(0.6)),
+        ))?;
+    }
     let mut chart = ChartBuilder::on(area)
         .caption(title, ("sans-serif", 24))
         .margin(16)
+        .margin_bottom(24)
         .x_label_area_size(52)
         .y_label_area_size(84)
         .build_cartesian_2d(time.range.clone(), value.range.clone())?;
@@ -66,21 +141,13 @@ fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
         .x_label_formatter(&|x| time.label(*x))
         .y_label_formatter(&|y| value.label(*y))
         .draw()?;
-    for (index, column) in table.columns.iter().enumerate() {
-        let colour = LINES[index % LINES.len()];
-        let shown = |(x, y)| (time.shown(x), value.shown(y));
-        let parts: Vec<Vec<(f64, f64)>> = parts(&table.times, &column.values)
-            .into_iter()
-            .map(|p| p.into_iter().map(shown).collect())
-            .collect();
-        let (dots, lines): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| part.len() == 1);
-        chart.draw_series(dots.into_iter().flatten().map(|dot| Circle::new(dot, 4, colour.filled())))?;
-        chart
-            .draw_series(lines.into_iter().map(|line| PathElement::new(line, colour.stroke_width(2))))?
-            .label(legend(column, &table.columns))
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)));
+    for curve in curves {
+        let shown =
+            |part: &Vec<(f64, f64)>| part.iter().map(|&(x, y)| (time.shown(x), value.shown(y))).collect();
+        let parts: Vec<Vec<(f64, f64)>> = curve.parts.iter().map(shown).collect();
+        draw(&mut chart, curve, parts)?;
     }
-    if table.columns.len() > 1 {
+    if curves.len() > 1 {
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::UpperRight)
@@ -89,8 +156,43 @@ fn chart(title: &str, table: &Table, area: &Area) -> Drawn {
             .label_font(("sans-serif", 16))
             .draw()?;
     }
-    area.present()?;
     Ok(())
+}
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+fn draw<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, curve: &Curve, parts: Vec<Vec<(f64, f64)>>) -> Drawn {
+    let Curve { label, colour, dashed, .. } = curve;
+    let (colour, dashed) = (*colour, *dashed);
+    let (dots, lines): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| part.len() == 1);
+    chart.draw_series(dots.into_iter().flatten().map(|dot| Circle::new(dot, 4, colour.filled())))?;
+    if dashed {
+        for line in lines {
+            chart.draw_series(DashedLineSeries::new(line, 7, 5, colour.stroke_width(2)))?;
+        }
+        let stroke = colour.stroke_width(2);
+        let dashes = move |at| {
+            let dash = |from, to| PathElement::new(vec![(from, 0), (to, 0)], stroke);
+            EmptyElement::at(at) + dash(0, 8) + dash(14, 22)
+        };
+        chart.draw_series(std::iter::empty::<PathElement<(f64, f64)>>())?.label(label).legend(dashes);
+        return Ok(());
+    }
+    chart
+        .draw_series(lines.into_iter().map(|line| PathElement::new(line, colour.stroke_width(2))))?
+        .label(label)
+        .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(3)));
+    Ok(())
+}
+
+/// As much of a text as has room below the axis.
+fn shortened(text: &str) -> String {
+    const ROOM: usize = 110;
+    if text.chars().count() <= ROOM {
+        text.to_string()
+    } else {
+        text.chars().take(ROOM - 3).chain("...".chars()).collect()
+    }
 }
 
 /// The unit of all columns, if they have the same.
@@ -108,10 +210,10 @@ fn legend(column: &Column, all: &[Column]) -> String {
 }
 
 /// The axis of the values: its unit is that of the columns, if they agree.
-fn value_axis(columns: &[Column]) -> Axis {
+fn value_axis(columns: &[Column], values: impl Iterator<Item = f64>) -> Axis {
     let unit = common_unit(columns).unwrap_or("");
     let name = if let [only] = columns { only.name.as_str() } else { "value" };
-    Axis::new(name, unit, columns.iter().flat_map(|column| column.values.iter().copied()))
+    Axis::new(name, unit, values)
 }
 
 /// One axis: its name with the unit, its range in that unit.
@@ -233,11 +335,36 @@ mod tests {
             (vec![0.0, 1.0], vec![1.0]),
         ] {
             let table = Table { times, columns: vec![column(values.clone()), column(values)] };
-            plot_probe("tip", &table, &path).unwrap();
+            plot_probe("tip", &table, None, &path).unwrap();
             let svg = std::fs::read_to_string(&path).unwrap();
             assert!(svg.starts_with("<svg") && svg.contains("a&lt;b") && !svg.contains("NaN"), "{table:?}");
         }
-        plot_probe("nothing", &Table::default(), &path).unwrap();
+        plot_probe("nothing", &Table::default(), None, &path).unwrap();
+    }
+
+    #[test]
+    fn reference_curves_are_dashed_and_end_with_the_table() {
+        let reference =
+            Reference::parse("# a paper\ntime [s],y [m],y fine [m],z [m]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n")
+                .unwrap();
+        let columns = ["x", "y"].map(|name| Column {
+            name: name.to_string(),
+            unit: "m".to_string(),
+            values: vec![0.0, 1.0],
+        });
+        let table = Table { times: vec![0.0, 1.5], columns: columns.to_vec() };
+        let found: Vec<Curve> =
+            table.columns.iter().enumerate().flat_map(|c| curves(c, &table, Some(&reference))).collect();
+        let seen: Vec<_> = found.iter().map(|curve| (curve.label.as_str(), curve.dashed)).collect();
+        assert_eq!(seen, [("x", false), ("y", false), ("y, reference", true), ("y fine, reference", true)]);
+        assert_eq!(found[3].parts, [vec![(0.0, 2.0), (1.0, 2.0)]]);
+        let scratch = tempfile::tempdir().unwrap();
+        let path = scratch.path().join("probe.svg");
+        plot_probe("tip", &table, Some(&reference), &path).unwrap();
+        let svg = std::fs::read_to_string(&path).unwrap();
+        assert!(svg.contains("y fine, reference") && svg.contains("reference: a paper"));
+        // Nothing sampled yet: the reference is still there.
+        plot_probe("tip", &Table { times: vec![], ..table }, Some(&reference), &path).unwrap();
     }
 
     #[test]
@@ -245,10 +372,8 @@ mod tests {
         let column =
             |unit: &str| Column { name: "q".to_string(), unit: unit.to_string(), values: vec![0.02] };
         let (same, mixed) = ([column("m"), column("m")], [column("m"), column("N")]);
-        assert_eq!((value_axis(&same).name.as_str(), legend(&same[0], &same).as_str()), ("value [mm]", "q"));
-        assert_eq!(
-            (value_axis(&mixed).name.as_str(), legend(&mixed[1], &mixed).as_str()),
-            ("value", "q [N]")
-        );
+        let axis = |columns: &[Column]| value_axis(columns, [0.02].into_iter()).name;
+        assert_eq!((axis(&same).as_str(), legend(&same[0], &same).as_str()), ("value [mm]", "q"));
+        assert_eq!((axis(&mixed).as_str(), legend(&mixed[1], &mixed).as_str()), ("value", "q [N]"));
     }
 }

@@ -138,6 +138,7 @@ fn steps_ask_for_no_memory() {
         total(Form::HourglassFree);
         total(Form::TotalNested);
         contact();
+        total(Form::Ganzenmueller);
         updated(Setup::new(DP).non_hourglass(2));
         updated(Setup::new(DP).updated_nested());
     });

@@ -5,13 +5,15 @@ use crate::{Boundary, Case, CaseError, Constraint, FieldExpression, Gravity, Vec
 use geometry::Shape;
 use taut::field::Quantity;
 use taut::pass::Now;
-use taut::simulation::{Drive, Point, Solver};
+use taut::simulation::{Drive, Grip, Point, Solver};
 
 /// A particle: its group, which is its solver, its index in the group, which is its id there, and its reference position.
 type Member = (usize, usize, [f64; 3]);
 
 /// Drives that wait for the solvers.
 pub struct Driven {
+    /// Of each group, of each particle, which boundary holds each axis.
+    owners: Vec<Vec<[Option<usize>; 3]>>,
     motions: Vec<(Constraint, Vec<Member>)>,
     forces: Vec<(Member, Vec<VectorField>)>,
 }
@@ -19,13 +21,29 @@ pub struct Driven {
 /// Marks prescribed components and constant forces in the points.
 pub fn prescribe<const D: usize>(case: &Case, groups: &mut [Group<'_, D>]) -> Result<Driven, CaseError> {
     let mut motions = Vec::new();
-    for boundary in &case.boundaries {
+    let mut owners: Vec<_> = groups.iter().map(|g| vec![[None; 3]; g.points.len()]).collect();
+    for (index, boundary) in case.boundaries.iter().enumerate() {
         let members = hold(case, boundary, groups)?;
-        if matches!(boundary.constraint, Constraint::Velocity(_) | Constraint::Displacement(_)) {
+        own(case, index, &members, &mut owners);
+        if boundary.constraint.is_led() {
             motions.push((boundary.constraint.clone(), members));
         }
     }
-    Ok(Driven { motions, forces: pull(case, groups)? })
+    Ok(Driven { owners, motions, forces: pull(case, groups)? })
+}
+
+/// Notes which axes a boundary holds. Where several do, the last that leads decides, as it does for the motion.
+fn own(case: &Case, index: usize, members: &[Member], owners: &mut [Vec<[Option<usize>; 3]>]) {
+    let constraint = &case.boundaries[index].constraint;
+    let held = constraint.axes();
+    for &(g, i, _) in members {
+        for k in (0..case.dimension).filter(|&k| held[k]) {
+            let owner = &mut owners[g][i][k];
+            if constraint.is_led() || owner.is_none_or(|o| !case.boundaries[o].constraint.is_led()) {
+                *owner = Some(index);
+            }
+        }
+    }
 }
 
 /// The particles of a boundary, with the components it prescribes no longer free.
@@ -36,13 +54,7 @@ fn hold<const D: usize>(
 ) -> Result<Vec<Member>, CaseError> {
     let region = checked::<D>(case, &boundary.region, boundary.place)?;
     let except = boundary.except.as_ref().map(|e| checked::<D>(case, e, boundary.place)).transpose()?;
-    let held: [bool; 3] = match &boundary.constraint {
-        Constraint::Fixed => [true; 3],
-        Constraint::Fix(axes) => *axes,
-        Constraint::Velocity(fields) | Constraint::Displacement(fields) => {
-            std::array::from_fn(|i| fields[i].is_some())
-        }
-    };
+    let held = boundary.constraint.axes();
     let mut members = Vec::new();
     for (g, group) in groups.iter_mut().enumerate() {
         for (i, point) in group.points.iter_mut().enumerate() {
@@ -128,6 +140,26 @@ fn total<'a>(fields: impl Iterator<Item = &'a VectorField>, x: [f64; 3], t: f64)
 }
 
 impl Driven {
+    /// Who is held by each boundary, by its number.
+    pub fn grips(&self, case: &Case) -> Vec<Grip> {
+        let mut grips = vec![Grip::default(); case.boundaries.len()];
+        for (g, group) in self.owners.iter().enumerate() {
+            for (i, owners) in group.iter().enumerate() {
+                for (k, owner) in owners.iter().enumerate() {
+                    // One entry for all axes of the same owner.
+                    let Some(index) = owner.filter(|_| !owners[..k].contains(owner)) else { continue };
+                    grips[index].hold(g, i as u32, owners.map(|other| other == *owner));
+                }
+            }
+        }
+        grips
+    }
+
+    /// Particles whose body force is set in every step.
+    pub fn pulled(&self) -> std::collections::HashSet<(usize, usize)> {
+        self.forces.iter().map(|&((g, i, _), _)| (g, i)).collect()
+    }
+
     /// The drives.
     pub fn drives(self) -> Vec<Box<dyn Drive>> {
         let mut drives: Vec<Box<dyn Drive>> = Vec::new();
@@ -201,5 +233,9 @@ impl Drive for Pulling {
             let place = solvers[*g].stored(*id);
             solvers[*g].write(Quantity::BodyForce, place, force);
         }
+    }
+
+    fn pulls(&self, mark: &mut dyn FnMut(usize, u32)) {
+        self.members.iter().for_each(|((g, id, _), _)| mark(*g, *id as u32));
     }
 }

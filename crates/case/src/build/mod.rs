@@ -5,19 +5,23 @@ mod bodies;
 mod doubts;
 mod drives;
 mod gap;
+mod loads;
 mod observe;
 mod shapes;
 mod solvers;
+mod statics;
+mod surface;
 mod thickness;
 mod touch;
 
 pub use afford::{available_memory, reckon};
-pub use observe::{Observed, ProbePoint, Watch};
+pub use observe::{ProbePoint, Watch};
 pub(crate) use shapes::bounds;
+pub(crate) use statics::increments;
 
 use crate::{Case, CaseError};
 use taut::contact::Contact;
-use taut::simulation::{Drive, InSpace, Numbers, Point, Solver};
+use taut::simulation::{Damping, Drive, Grip, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
@@ -27,6 +31,10 @@ pub struct Built {
     pub contact: Option<Contact>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
+    /// Who is held by each boundary.
+    pub grips: Vec<Grip>,
+    /// What damps all motion.
+    pub damping: Option<Box<dyn Damping>>,
     /// Where each probe reads.
     pub probes: Vec<ProbePoint>,
     /// The measure of disorder.
@@ -68,15 +76,18 @@ where
     let mut groups = bodies::groups::<D>(case)?;
     bodies::initial(case, &mut groups)?;
     let driven = drives::prescribe(case, &mut groups)?;
+    let loads = loads::loads(case, &mut groups, &driven.pulled())?;
     let solver = |group| solvers::solver(case, group, numbers);
     let mut solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
     let tools = touch::tools::<D>(case)?;
     solvers.extend(case.tools.iter().zip(&tools).map(|(tool, points)| touch::rigid(case, tool, points)));
-    let drives = driven.drives();
+    let grips = driven.grips(case);
+    // Loads add to what the others set.
+    let drives = driven.drives().into_iter().chain(loads).collect();
     let probes = observe::probes(case, &groups)?;
     let (watch, body) = observe::disorder(case, (&groups, &tools))?;
     let across = thickness::across(case, &groups);
     let warnings = doubts::warnings(case, (&groups, &tools), &across);
-    let contact = touch::contact(case);
-    Ok(Built { solvers, contact, drives, probes, watch, body, numbers, warnings, across })
+    let (contact, damping) = (touch::contact(case), statics::damping(case, &groups));
+    Ok(Built { solvers, contact, drives, grips, damping, probes, watch, body, numbers, warnings, across })
 }

@@ -11,66 +11,77 @@ use taut::simulation::{Point, Simulation, Snapshot, Solver};
 
 /// Where a probe reads.
 pub enum ProbePoint {
-    /// Weights of particles of one solver, by id.
-    Material {
-        /// The solver.
-        solver: usize,
-        /// The weights.
-        point: MaterialPoint,
-        /// Their mean reference position, m.
-        at: [f64; 3],
-        /// What is read.
-        quantity: Quantity,
-    },
+    /// Of particles.
+    Motion(Followed),
+    /// The force of a boundary, by its number.
+    Force(usize),
+    /// The moment of that force.
+    Moment(usize),
     /// What contact does to a body.
-    Contact {
-        /// Number of the body.
-        body: u32,
-        /// Number of the body that does it; `None` for all.
-        by: Option<u32>,
-        /// Whether it is the moment that is asked for.
-        moment: bool,
-    },
+    Contact(Touched),
 }
 
-impl ProbePoint {
-    /// The value now.
+/// What contact does to a body.
+#[derive(Clone, Copy)]
+pub struct Touched {
+    /// Number of the body.
+    body: u32,
+    /// Number of the body that does it; `None` for all.
+    by: Option<u32>,
+    /// Whether it is the moment that is asked for.
+    moment: bool,
+}
+
+impl Touched {
+    /// The force or moment, as it was in the middle of the last step.
     #[must_use]
     pub fn value(&self, simulation: &Simulation) -> [f64; 3] {
-        match self {
-            Self::Material { solver, point, at, quantity } => {
-                of_material(simulation.solvers()[*solver].as_ref(), (point, *at), *quantity)
-            }
-            Self::Contact { body, by, moment } => {
-                let met = simulation.contact().map(|contact| contact.met(*body, *by)).unwrap_or_default();
-                if *moment { met.moment } else { met.force }
-            }
-        }
+        let met = simulation.contact().map(|contact| contact.met(self.body, self.by)).unwrap_or_default();
+        if self.moment { met.moment } else { met.force }
     }
 }
 
-fn of_material(solver: &dyn Solver, (point, at): (&MaterialPoint, [f64; 3]), quantity: Quantity) -> [f64; 3] {
-    let mean = |field| point.value(|id| solver.read(field, solver.stored(id)));
-    match quantity {
-        Quantity::Velocity => mean(field::Quantity::Velocity),
-        Quantity::Position => {
-            let u = mean(field::Quantity::Displacement);
-            std::array::from_fn(|i| at[i] + u[i])
+/// Particles that a probe follows: weights of particles of one solver, by id.
+pub struct Followed {
+    solver: usize,
+    point: MaterialPoint,
+    at: [f64; 3],
+    quantity: Quantity,
+}
+
+impl Followed {
+    /// The value now.
+    #[must_use]
+    pub fn value(&self, solvers: &[Box<dyn Solver>]) -> [f64; 3] {
+        let solver = &solvers[self.solver];
+        let mean = |field| self.point.value(|id| solver.read(field, solver.stored(id)));
+        match self.quantity {
+            Quantity::Velocity => mean(field::Quantity::Velocity),
+            Quantity::Position => {
+                let u = mean(field::Quantity::Displacement);
+                std::array::from_fn(|i| self.at[i] + u[i])
+            }
+            _ => mean(field::Quantity::Displacement),
         }
-        _ => mean(field::Quantity::Displacement),
     }
 }
 
 /// The probes of a case.
 pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Vec<ProbePoint>, CaseError> {
     let probe = |probe: &crate::Probe| {
+        if let Spot::Boundary(index) = probe.spot {
+            return Ok(match probe.quantity {
+                Quantity::Moment => ProbePoint::Moment(index),
+                _ => ProbePoint::Force(index),
+            });
+        }
         if let Spot::Contact { by } = probe.spot {
             let (body, by) = (probe.body as u32, by.map(|by| by as u32));
             let moment = probe.quantity == Quantity::ContactMoment;
-            return Ok(ProbePoint::Contact { body, by, moment });
+            return Ok(ProbePoint::Contact(Touched { body, by, moment }));
         }
         let spot = match &probe.spot {
-            Spot::Point(_) | Spot::Contact { .. } => None,
+            Spot::Point(_) | Spot::Boundary(_) | Spot::Contact { .. } => None,
             Spot::Region(region) => Some(checked::<D>(case, region, probe.place)?),
         };
         let found = groups.iter().enumerate().find_map(|(g, group)| {
@@ -78,7 +89,7 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
             let mine: Vec<_> = mine.collect();
             let (point, at) = match (&probe.spot, &spot) {
                 (Spot::Region(_), Some(region)) => mean(&mine, region)?,
-                (Spot::Region(_) | Spot::Contact { .. }, _) => return None,
+                (Spot::Region(_), None) | (Spot::Boundary(_) | Spot::Contact { .. }, _) => return None,
                 (Spot::Point(at), _) => {
                     let stored = mine.iter().map(|(place, p)| (*place, p.x));
                     (MaterialPoint::new(stored, vector(*at), case.spacing)?, *at)
@@ -88,15 +99,15 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
         });
         let (solver, point, at) = found.ok_or_else(|| {
             let what = match probe.spot {
-                Spot::Point(_) | Spot::Contact { .. } => "no particle within 2.6 spacings",
-                Spot::Region(_) => "no particle is in its region",
+                Spot::Point(_) => "no particle within 2.6 spacings",
+                Spot::Region(_) | Spot::Boundary(_) | Spot::Contact { .. } => "no particle is in its region",
             };
             let message = format!("probe `{}` is not in its body: {what}", probe.name);
             let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
             let help = format!("a probe is placed in the undeformed body `{name}`");
             case.error_at(probe.place, message, Some(help))
         })?;
-        Ok(ProbePoint::Material { solver, point, at, quantity: probe.quantity })
+        Ok(ProbePoint::Motion(Followed { solver, point, at, quantity: probe.quantity }))
     };
     case.probes.iter().map(probe).collect()
 }
@@ -113,21 +124,22 @@ fn mean<const D: usize>(mine: &[(usize, &Point<D>)], region: &Shape) -> Option<(
     Some((point, at))
 }
 
-/// What is observed of the arrangement of particles.
-pub struct Observed {
-    /// The measures of disorder.
-    pub disorder: Disorder,
-    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
-    pub gap: Option<f64>,
-}
-
 /// The measure of disorder of a case, in whatever dimension.
 pub trait Watch: Send {
-    /// Measures the positions of a snapshot, and the gap between bodies if it is wanted.
+    /// Measures the positions of a snapshot.
     ///
     /// # Errors
     /// If positions are not numbers.
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError>;
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError>;
+
+    /// Smallest distance between particles of two bodies, m, if it is below four smoothing lengths.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError>;
+
+    /// The particle with the largest zigzag in the last measurement.
+    fn most_zigzag(&self) -> Option<usize>;
 
     /// The deformation gradient of every particle, row by row: its own, or one by least squares for formulations that
     /// have none (the identity where positions are not numbers).
@@ -166,6 +178,10 @@ fn load<const D: usize>(columns: &mut [Vec<f64>; D], snapshot: &Snapshot) {
 }
 
 impl<const D: usize> Watch for Arrangement<D> {
+    fn most_zigzag(&self) -> Option<usize> {
+        self.reference.most_zigzag()
+    }
+
     fn deformation(&mut self, snapshot: &Snapshot, out: &mut Vec<[f64; 9]>) {
         out.clear();
         out.extend_from_slice(&snapshot.deformation);
@@ -183,13 +199,18 @@ impl<const D: usize> Watch for Arrangement<D> {
         }
     }
 
-    fn measure(&mut self, snapshot: &Snapshot, gap: bool) -> Result<Observed, DisorderError> {
+    fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
         let disorder = self.reference.measure(x.map(|x| &x[..self.deformable]))?;
         self.measured = Some(snapshot.time);
-        let gap = if gap { self.gap.smallest(x)? } else { None };
-        Ok(Observed { disorder, gap })
+        Ok(disorder)
+    }
+
+    fn gap(&mut self, snapshot: &Snapshot) -> Result<Option<f64>, DisorderError> {
+        load(&mut self.columns, snapshot);
+        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        Ok(self.gap.smallest(x)?)
     }
 }
 

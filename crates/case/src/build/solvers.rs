@@ -1,13 +1,16 @@
 //! The match over formulations and materials.
 
 use super::bodies::Group;
-use crate::{Body, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule, Stepping};
+use crate::{
+    Body, Calibration, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule,
+    Stepping,
+};
 use taut::formulation::updated::Hypoelastic;
 use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
 use taut::simulation::{
-    InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+    self, InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
 };
 
 /// The plane as the material sees it.
@@ -24,7 +27,8 @@ pub fn moduli(material: &Material) -> Moduli {
     Moduli { density: material.density, bulk: e.bulk_modulus, shear: e.shear_modulus }
 }
 
-fn kernel<const D: usize>(case: &Case, h: f64) -> kernel::Kernel {
+/// The kernel of a smoothing length.
+pub fn kernel<const D: usize>(case: &Case, h: f64) -> kernel::Kernel {
     let shape = match case.kernel {
         Kernel::WendlandC2 => kernel::Shape::WendlandC2,
         Kernel::CubicSpline => kernel::Shape::CubicSpline,
@@ -59,17 +63,14 @@ where
     let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
     let points = Point::points(&group.points);
     match scheme.march {
-        March::Total { step } => {
+        March::Total { step, calibration, alpha } => {
             let options = TotalOptions {
                 kernel,
                 cfl: scheme.cfl,
                 wave_speed: if step == StepRule::Paper { WaveSpeed::Paper } else { WaveSpeed::Stretch },
                 bulk_speed: all[index].sound_speed(),
             };
-            let form = match scheme.formulation {
-                Formulation::TlNested => TotalForm::Nested,
-                _ => TotalForm::HourglassFree,
-            };
+            let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
             total_body(points, (form, law), options, numbers).ok_or_else(|| {
                 let message = format!(
@@ -102,6 +103,16 @@ where
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
+    }
+}
+
+/// A total Lagrangian formulation with its numbers.
+fn total_form(formulation: Formulation, calibration: Calibration, alpha: f64) -> TotalForm {
+    match (formulation, calibration) {
+        (Formulation::TlNested, _) => TotalForm::Nested,
+        (Formulation::TlGanzenmueller, _) => TotalForm::Ganzenmueller(alpha),
+        (_, Calibration::Lattice) => TotalForm::HourglassFree(simulation::Calibration::Lattice),
+        (_, Calibration::Paper) => TotalForm::HourglassFree(simulation::Calibration::Paper),
     }
 }
 

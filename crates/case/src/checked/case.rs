@@ -3,15 +3,20 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use output::limited::{LONGEST_TEXT, read_text};
+
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
 use super::contact::Contact;
+use super::curves;
+use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
 use super::measure::Measure;
 use super::probe::Probe;
 use super::read;
 use super::shape::ShapeSpec;
+use super::statics::{Damping, Statics};
 use super::time::{Monitor, Time};
 use super::tool::Tool;
 use crate::diagnostic::{CaseError, Diagnostic, render_warnings};
@@ -52,8 +57,14 @@ pub struct Case {
     pub initial: Vec<Initial>,
     /// Body forces.
     pub gravity: Vec<Gravity>,
+    /// Forces on particles and surfaces.
+    pub loads: Vec<Load>,
     /// How long the run is.
     pub time: Time,
+    /// Damping of all motion.
+    pub damping: Option<Damping>,
+    /// Whether equilibria are looked for, and how.
+    pub quasi_static: Option<Statics>,
     /// The watch over disorder.
     pub monitor: Monitor,
     /// Recorded points.
@@ -73,8 +84,11 @@ impl Case {
     /// The file cannot be read, or what [`Case::parse`] refuses.
     pub fn read(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&name, &text, overrides),
+        match read_text(path, LONGEST_TEXT) {
+            Ok(text) => {
+                let folder = path.parent().unwrap_or(Path::new("."));
+                Self::parse(&name, &text, overrides)?.with_references(|file| curves::in_folder(folder, file))
+            }
             Err(error) => {
                 let message = format!("cannot read the case file {name}: {error}");
                 Err(CaseError::new(vec![Diagnostic::nowhere(message)], Arc::new(Sources::new(&name, ""))))
@@ -82,7 +96,8 @@ impl Case {
         }
     }
 
-    /// Checks a case given as text; `name` is what diagnostics call the file.
+    /// Checks a case given as text; `name` is what diagnostics call the file. Its reference curves are not looked for:
+    /// [`Case::with_references`].
     ///
     /// # Errors
     /// Everything that is wrong with the file or the overrides, each with its place.
@@ -113,6 +128,11 @@ impl Case {
     pub fn error_at(&self, place: Place, message: impl Into<String>, help: Option<String>) -> CaseError {
         let diagnostic = Diagnostic { help, ..Diagnostic::at(place, message) };
         CaseError::new(vec![diagnostic], Arc::clone(&self.sources))
+    }
+
+    /// Several errors at once.
+    pub(super) fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseError {
+        CaseError::new(diagnostics, Arc::clone(&self.sources))
     }
 
     /// The warnings as a person reads them, in colour when asked; the empty text when there are none.

@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::choices::{Family, Formulation, Plane};
 use super::material::{Material, Model};
+use super::scheme::March;
 use crate::diagnostic::{Diagnostic, Problems};
 
 /// Below this Poisson ratio `ul-non-hourglass` is too stiff in bending: by 3 per cent just below it, by 10 at 0.3,
@@ -13,7 +14,9 @@ const NEARLY_INCOMPRESSIBLE: f64 = 0.4;
 fn models(formulation: Formulation) -> &'static [Model] {
     match formulation {
         Formulation::TlHourglassFree => &[Model::NeoHookean, Model::NeoHookeanLog],
-        Formulation::TlNested => &[Model::NeoHookean, Model::NeoHookeanLog, Model::SaintVenantKirchhoff],
+        Formulation::TlNested | Formulation::TlGanzenmueller => {
+            &[Model::NeoHookean, Model::NeoHookeanLog, Model::SaintVenantKirchhoff]
+        }
         Formulation::UlNonHourglass | Formulation::UlNested => &[Model::LinearElastic],
     }
 }
@@ -30,7 +33,8 @@ pub(super) fn check(bodies: &[Body], materials: &[Material], problems: &mut Prob
         let known: Vec<String> = models.iter().map(|model| format!("`{}`", model.name())).collect();
         let also = match material.model {
             Model::SaintVenantKirchhoff if formulation.family() == Family::Total => {
-                "; its stress has no hourglass-free split: `tl-nested` takes it".to_string()
+                "; its stress has no hourglass-free split: `tl-nested` and `tl-ganzenmueller` take it"
+                    .to_string()
             }
             _ => {
                 format!(" (on the command line: --set material.{}.model={})", material.name, models[0].name())
@@ -46,7 +50,19 @@ pub(super) fn check(bodies: &[Body], materials: &[Material], problems: &mut Prob
 
 /// Warnings about bodies; in the papers' plane the bias is the benchmarks' own.
 pub(super) fn warnings(bodies: &[Body], materials: &[Material], plane: Option<Plane>) -> Vec<Diagnostic> {
-    pairs(bodies, materials)
+    let tuned = bodies.iter().find_map(|body| match body.scheme.march {
+        March::Total { alpha, .. } if body.scheme.formulation == Formulation::TlGanzenmueller => {
+            let message = format!(
+                "`tl-ganzenmueller` has a number to be tuned, and results depend on it: alpha = {alpha}"
+            );
+            Some(
+                Diagnostic::at(body.place, message)
+                    .help("compare with another `alpha`, or use tl-hourglass-free, which has none"),
+            )
+        }
+        _ => None,
+    });
+    let stiff = pairs(bodies, materials)
         .filter(|(body, material)| {
             body.scheme.formulation == Formulation::UlNonHourglass
                 && material.elastic.poisson_ratio < NEARLY_INCOMPRESSIBLE
@@ -59,8 +75,8 @@ pub(super) fn warnings(bodies: &[Body], materials: &[Material], plane: Option<Pl
                 body.name
             );
             Diagnostic::at(body.place, message).help("above 0.4 the error is below 3 per cent; or use tl-hourglass-free")
-        })
-        .collect()
+        });
+    tuned.into_iter().chain(stiff).collect()
 }
 
 fn pairs<'a>(

@@ -8,7 +8,7 @@ use super::tool::Tool;
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::contact as keys;
 use crate::source::Place;
-use crate::written::{Node, Section, Value};
+use crate::written::{Node, Section, Table, Value};
 
 /// How two bodies meet, by their numbers: bodies in the order of the file, then tools.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +42,27 @@ pub(crate) fn read(
         all.push(Contact { bodies, friction, place: section.place });
     }
     all
+}
+
+/// Refuses increments of load where bodies may touch: their balance of forces does not know contact.
+pub(crate) fn refuse_statics(
+    root: &Table,
+    (contacts, bodies, tools): (&[Contact], usize, usize),
+    problems: &mut Problems,
+) {
+    let Some(node) = root.get("quasi_static") else { return };
+    let said = |one, other| contacts.iter().find(|contact| contact.bodies == [one, other]);
+    let pairs = (0..bodies + tools).flat_map(|other| (0..=other).map(move |one| (one, other)));
+    let touch = |&(one, other): &(usize, usize)| match said(one, other) {
+        Some(contact) => contact.friction.is_some(),
+        None => one != other && one < bodies,
+    };
+    if pairs.into_iter().any(|pair| touch(&pair)) {
+        problems.0.push(
+            Diagnostic::at(node.place, "increments that are held until forces balance do not know contact, and bodies or tools of this case may touch")
+                .help("move the tools slowly, with [damping] if it rings; or let what does not meet pass through each other with [[contact]] ignore = true"),
+        );
+    }
 }
 
 fn pair(node: &Node, names: &[Option<&str>]) -> Result<[usize; 2], Diagnostic> {

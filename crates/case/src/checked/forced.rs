@@ -6,7 +6,7 @@ use crate::source::{Place, Sources};
 use crate::written::{Node, Table, Value};
 
 /// Writes the formulation into the tree. What the file says about formulations of single bodies, and keys that
-/// only the other family has, go: they were right for the file's own choice. An unknown name is refused later,
+/// only other formulations have, go: they were right for the file's own choice. An unknown name is refused later,
 /// as one in the file is.
 pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
     let typed = format!("--formulation {name}");
@@ -24,7 +24,14 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
             }
         }
     }
-    match Formulation::WORDS.iter().find(|(n, ..)| *n == name).map(|(_, f, _)| f.family()) {
+    let formulation = Formulation::WORDS.iter().find(|(n, ..)| *n == name).map(|(_, f, _)| *f);
+    if formulation.is_some_and(|f| f != Formulation::TlGanzenmueller) {
+        root.remove("alpha");
+    }
+    if formulation.is_some_and(|f| f != Formulation::TlHourglassFree) {
+        root.remove("calibration");
+    }
+    match formulation.map(Formulation::family) {
         Some(Family::Total) => {
             root.remove("stepping");
             root.remove("reference_speed");

@@ -2,7 +2,7 @@
 
 use super::choices::Axis;
 use super::field::{FieldExpression, VectorField};
-use super::names::find;
+use super::names::{find, part_name};
 use super::scope::{Scope, place_of};
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
@@ -14,6 +14,8 @@ use crate::written::{Node, Section, Value, choice};
 /// Particles whose motion is prescribed.
 #[derive(Debug, Clone)]
 pub struct Boundary {
+    /// Its name; a number if the file gives none.
+    pub name: String,
     /// Number of the body; `None` for all.
     pub body: Option<usize>,
     /// Particles whose reference position is in here ...
@@ -37,6 +39,26 @@ pub enum Constraint {
     Velocity([Option<FieldExpression>; 3]),
     /// Displacement from the reference position, m; `None` leaves an axis free.
     Displacement([Option<FieldExpression>; 3]),
+}
+
+impl Constraint {
+    /// The axes along which it prescribes something.
+    #[must_use]
+    pub fn axes(&self) -> [bool; 3] {
+        match self {
+            Self::Fixed => [true; 3],
+            Self::Fix(axes) => *axes,
+            Self::Velocity(fields) | Self::Displacement(fields) => {
+                std::array::from_fn(|i| fields[i].is_some())
+            }
+        }
+    }
+
+    /// Whether what it holds moves.
+    #[must_use]
+    pub fn is_led(&self) -> bool {
+        matches!(self, Self::Velocity(_) | Self::Displacement(_))
+    }
 }
 
 /// A velocity at the start in a region; it replaces that of the body.
@@ -71,19 +93,31 @@ pub(crate) struct LoadReader<'a, 'b> {
     pub shapes: &'b mut ShapeReader<'a>,
     /// Names of all bodies of the case, also of wrong ones.
     pub bodies: &'b [Option<&'a str>],
+    /// Boundaries so far.
+    pub boundaries: usize,
 }
 
 impl LoadReader<'_, '_> {
     /// One boundary.
     pub(crate) fn boundary(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Boundary> {
+        self.boundaries += 1;
         section.only(boundary::TABLE.keys, problems);
+        let name = section.get(boundary::NAME.name).map(|_| part_name(section)).transpose();
+        let name = problems.keep(name);
         let body = problems.keep(self.body(section));
         let region =
             problems.keep(section.need(boundary::REGION.name).and_then(|node| self.shapes.shape(node)));
         let except = problems.keep(self.shape(section, boundary::EXCEPT.name));
         let constraint = problems.keep(self.constraint(section));
         let place = section.place;
-        Some(Boundary { body: body?, region: region?, except: except?, constraint: constraint?, place })
+        Some(Boundary {
+            name: name?.map_or_else(|| format!("boundary-{}", self.boundaries), str::to_string),
+            body: body?,
+            region: region?,
+            except: except?,
+            constraint: constraint?,
+            place,
+        })
     }
 
     /// One body force.
@@ -111,7 +145,7 @@ impl LoadReader<'_, '_> {
         Some(Initial { velocity: velocity?, body: body?, region: region?, place: section.place })
     }
 
-    fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
+    pub(super) fn body(&self, section: &Section<'_>) -> Result<Option<usize>, Diagnostic> {
         section.get("body").map(|node| find(node, "body", self.bodies)).transpose()
     }
 

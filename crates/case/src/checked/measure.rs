@@ -32,12 +32,14 @@ pub enum MeasureKind {
         /// What it is divided by, SI; 1 with the unit of the probe if nothing is said.
         over: Option<f64>,
     },
-    /// Most turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
-    MostTurns {
+    /// Something about the turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
+    Turns {
         /// Number of the probe, which records positions.
         probe: usize,
         /// The axis.
         axis: Axis,
+        /// What about them.
+        feature: Feature,
     },
     /// Kinetic energy at the end over that at the start.
     KineticRatio,
@@ -109,6 +111,8 @@ pub(crate) enum Measured {
     Duration,
     ValueAt,
     MostTurns,
+    LeastTurns,
+    TurnsAt,
     KineticRatio,
     ContactStart,
     ReboundSpeed,
@@ -133,6 +137,12 @@ impl Words for Measured {
             Self::MostTurns,
             "most turns of a probe around an axis through the origin, counted from where it starts",
         ),
+        (
+            "least-turns",
+            Self::LeastTurns,
+            "fewest turns: how far the probe goes the other way, as a negative number",
+        ),
+        ("turns-at", Self::TurnsAt, "the turns at a time"),
         ("kinetic-ratio", Self::KineticRatio, "kinetic energy at the end over that at the start"),
         ("contact-start", Self::ContactStart, "time of the first contact of two bodies"),
         ("rebound-speed", Self::ReboundSpeed, "speed of the centre of mass of a body at the end"),
@@ -152,7 +162,8 @@ impl Measured {
             }
             Self::TurningPoints => TURNING,
             Self::ValueAt => const { &[keys::PROBE, keys::COMPONENT, keys::TIME] },
-            Self::MostTurns => const { &[keys::PROBE, keys::AXIS] },
+            Self::MostTurns | Self::LeastTurns => const { &[keys::PROBE, keys::AXIS] },
+            Self::TurnsAt => const { &[keys::PROBE, keys::AXIS, keys::TIME] },
             Self::KineticRatio | Self::ContactStart => &[],
             Self::ReboundSpeed | Self::VolumeRatio => const { &[keys::BODY] },
         }
@@ -193,18 +204,21 @@ impl MeasureReader<'_> {
 
     fn kind(&self, kind: Measured, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
         match kind {
-            Measured::MostTurns => self.most_turns(section),
+            Measured::MostTurns => self.turns(section, Feature::Maximum),
+            Measured::LeastTurns => self.turns(section, Feature::Minimum),
+            Measured::TurnsAt => {
+                self.turns(section, Feature::ValueAt { time: self.scope.need(section, &keys::TIME)? })
+            }
             Measured::KineticRatio => Ok(MeasureKind::KineticRatio),
             Measured::ContactStart => Ok(MeasureKind::ContactStart),
             Measured::ReboundSpeed => Ok(MeasureKind::ReboundSpeed { body: self.body(section)? }),
             Measured::VolumeRatio => Ok(MeasureKind::VolumeRatio { body: self.body(section)? }),
             _ => {
                 let probe = find(section.need(keys::PROBE.name)?, keys::PROBE.name, self.probes)?;
-                let dimension = self.scope.dimension;
                 // Where a probe is wrong the others have moved up: then every axis may be right.
                 let whole = self.checked.len() == self.probes.len();
                 let quantity = self.checked.get(probe).filter(|_| whole).map(|p| p.quantity);
-                let axes = &Axis::WORDS[..quantity.map_or(3, |q| q.components(dimension))];
+                let axes = &Axis::WORDS[quantity.map_or(0..3, |q| q.axes(self.scope.dimension))];
                 let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
                 let feature = self.feature(kind, probe, section)?;
                 Ok(MeasureKind::Probe { probe, axis, feature, over: self.over(probe, section)? })
@@ -238,7 +252,7 @@ impl MeasureReader<'_> {
         })
     }
 
-    fn most_turns(&self, section: &Section<'_>) -> Result<MeasureKind, Diagnostic> {
+    fn turns(&self, section: &Section<'_>, feature: Feature) -> Result<MeasureKind, Diagnostic> {
         let node = section.need(keys::PROBE.name)?;
         let probe = find(node, keys::PROBE.name, self.probes)?;
         if self.checked.get(probe).is_some_and(|p| p.quantity != Quantity::Position) {
@@ -248,7 +262,7 @@ impl MeasureReader<'_> {
         // In the plane there is one axis to go around.
         let axes = &Axis::WORDS[if self.scope.dimension == 2 { 2 } else { 0 }..];
         let axis = choice(section.need(keys::AXIS.name)?, keys::AXIS.name, axes)?;
-        Ok(MeasureKind::MostTurns { probe, axis })
+        Ok(MeasureKind::Turns { probe, axis, feature })
     }
 
     fn turning_point(&self, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {

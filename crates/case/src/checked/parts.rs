@@ -4,12 +4,13 @@ use super::body::{Body, BodyReader};
 use super::choices::{Formulation, Plane};
 use super::compatible;
 use super::contact::{self, Contact};
+use super::force::Load;
 use super::load::{Boundary, Gravity, Initial, LoadReader};
 use super::material::{self, Material};
 use super::measure::{Measure, MeasureReader};
 use super::names::part_names;
 use super::plausible;
-use super::probe::{self, Probe};
+use super::probe::{Probe, ProbeReader};
 use super::scheme::Schemes;
 use super::scope::Scope;
 use super::shape::ShapeSpec;
@@ -30,6 +31,7 @@ pub(super) struct Parts {
     pub boundaries: Vec<Boundary>,
     pub initial: Vec<Initial>,
     pub gravity: Vec<Gravity>,
+    pub loads: Vec<Load>,
     pub probes: Vec<Probe>,
     pub measures: Vec<Measure>,
 }
@@ -63,14 +65,16 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     if schemes.known {
         compatible::check(&bodies, &materials, problems);
     }
-    let mut loads = LoadReader { scope, shapes: &mut shapes, bodies: &body_names };
-    let boundaries = list(root, "boundary", problems);
+    let mut loads = LoadReader { scope, shapes: &mut shapes, bodies: &body_names, boundaries: 0 };
+    let (boundaries, held) = named_list(root, "boundary", problems);
     let boundaries = boundaries.iter().filter_map(|s| loads.boundary(s, problems)).collect();
     let gravity = list(root, "gravity", problems);
     let gravity = gravity.iter().filter_map(|s| loads.gravity(s, problems)).collect();
+    let forces = list(root, "load", problems);
+    let forces = forces.iter().filter_map(|s| loads.load(s, problems)).collect();
     let initial = list(root, "initial", problems);
     let initial = initial.iter().filter_map(|s| loads.initial(s, problems)).collect();
-    let (probes, measures) = records(root, &mut shapes, (&body_names, &all_names), problems);
+    let (probes, measures) = records(root, &mut shapes, (&body_names, &held, &all_names), problems);
     Parts {
         formulation: schemes.formulation,
         materials,
@@ -81,6 +85,7 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
         boundaries,
         initial,
         gravity,
+        loads: forces,
         probes,
         measures,
     }
@@ -134,16 +139,16 @@ fn bodies<'a>(
 }
 
 /// Probes, and the measures taken from them.
-fn records(
-    root: &Table,
-    shapes: &mut ShapeReader<'_>,
-    (bodies, touching): (&[Option<&str>], &[Option<&str>]),
+fn records<'a>(
+    root: &'a Table,
+    shapes: &mut ShapeReader<'a>,
+    (bodies, boundaries, touching): (&[Option<&'a str>], &[Option<&'a str>], &[Option<&'a str>]),
     problems: &mut Problems,
 ) -> (Vec<Probe>, Vec<Measure>) {
     let scope = shapes.scope;
     let (sections, names) = named_list(root, "probe", problems);
-    let probes: Vec<Probe> =
-        sections.iter().filter_map(|s| probe::read(s, shapes, (bodies, touching), problems)).collect();
+    let mut reader = ProbeReader { shapes, bodies, boundaries, touching };
+    let probes: Vec<Probe> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
     let (sections, _) = named_list(root, "measure", problems);
     let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };
     let measures = sections.iter().filter_map(|section| reader.read(section, problems)).collect();

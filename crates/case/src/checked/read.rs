@@ -6,7 +6,8 @@ use super::case::Case;
 use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
-use super::{parameters, time};
+use super::scope::Scope;
+use super::{contact, parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
@@ -48,13 +49,15 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     top.only(keys::TABLE.keys, problems);
     let Head { name, title, dimension, plane, kernel } = head(&top, problems)?;
     let before = problems.0.len();
-    let scope = parameters::read(root, dimension, problems);
+    let scope = Scope { folder: sources.folder(), ..parameters::read(root, dimension, problems) };
     if problems.0.len() > before {
         return None;
     }
     let spacing = problems.keep(scope.need(&top, &keys::SPACING));
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
+    let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
+    contact::refuse_statics(root, (&parts.contacts, parts.bodies.len(), parts.tools.len()), problems);
     let (time, monitor) = times?;
     Some(Case {
         name,
@@ -74,7 +77,10 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         boundaries: parts.boundaries,
         initial: parts.initial,
         gravity: parts.gravity,
+        loads: parts.loads,
         time,
+        damping,
+        quasi_static,
         monitor,
         probes: parts.probes,
         measures: parts.measures,

@@ -1,7 +1,7 @@
 //! How each body is marched in time: the formulation and what depends on it.
 
 use super::body::Body;
-use super::choices::{Family, Formulation, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
@@ -29,6 +29,10 @@ pub enum March {
     Total {
         /// How the step is bounded.
         step: StepRule,
+        /// Factors of the hourglass-free force.
+        calibration: Calibration,
+        /// Strength of Ganzenmueller's hourglass control.
+        alpha: f64,
     },
     /// Updated Lagrangian.
     Updated {
@@ -51,6 +55,8 @@ pub(crate) struct Schemes {
     step: Option<(StepRule, Place)>,
     stepping: Option<(Stepping, Place)>,
     reference_speed: Option<(f64, Place)>,
+    calibration: Option<(Calibration, Place)>,
+    alpha: Option<(f64, Place)>,
 }
 
 impl Schemes {
@@ -78,6 +84,10 @@ impl Schemes {
             reference_speed: optional(root.get(case::REFERENCE_SPEED.name), problems, |n| {
                 scope.of(n, &case::REFERENCE_SPEED)
             }),
+            calibration: optional(root.get(case::CALIBRATION.name), problems, |n| {
+                choice(n, case::CALIBRATION.name, Calibration::WORDS)
+            }),
+            alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
         }
     }
 
@@ -85,7 +95,11 @@ impl Schemes {
     pub(crate) fn of(&self, own: Option<Formulation>) -> Scheme {
         let formulation = own.unwrap_or(self.formulation);
         let march = match formulation.family() {
-            Family::Total => March::Total { step: self.step.map_or(defaults::STEP, |(step, _)| step) },
+            Family::Total => March::Total {
+                step: self.step.map_or(defaults::STEP, |(step, _)| step),
+                calibration: self.calibration.map_or(defaults::CALIBRATION, |(calibration, _)| calibration),
+                alpha: self.alpha.map_or(defaults::ALPHA, |(alpha, _)| alpha),
+            },
             Family::Updated => March::Updated {
                 stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
                 reference_speed: self.reference_speed.map_or(defaults::REFERENCE_SPEED, |(speed, _)| speed),
@@ -102,6 +116,16 @@ impl Schemes {
     /// Refuses keys of a family that no body of the case belongs to.
     pub(crate) fn refuse_useless(&self, bodies: &[Body], problems: &mut Problems) {
         let used = |family| bodies.iter().any(|body| body.scheme.formulation.family() == family);
+        let one_only = [
+            ("alpha", self.alpha.map(|(_, place)| place), Formulation::TlGanzenmueller),
+            ("calibration", self.calibration.map(|(_, place)| place), Formulation::TlHourglassFree),
+        ];
+        for (key, place, formulation) in one_only {
+            let used = bodies.iter().any(|body| body.scheme.formulation == formulation);
+            if let Some(place) = place.filter(|_| !used) {
+                problems.0.push(useless(key, formulation.name(), place));
+            }
+        }
         let updated_only = [
             ("stepping", self.stepping.map(|(_, place)| place)),
             ("reference_speed", self.reference_speed.map(|(_, place)| place)),

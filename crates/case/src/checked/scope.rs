@@ -15,6 +15,8 @@ pub(crate) struct Scope {
     pub dimension: usize,
     /// Names and SI values, in the order of the file.
     pub parameters: Vec<(String, f64)>,
+    /// The folder of the case file.
+    pub folder: std::path::PathBuf,
     /// For parameters that were given with a unit: what they are.
     pub units: Vec<(String, Quantity)>,
 }

@@ -3,9 +3,9 @@
 use super::defaults;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems};
-use crate::keys::{monitor as monitor_keys, time as keys};
+use crate::keys::{Key, monitor as monitor_keys, time as keys};
 use crate::source::Place;
-use crate::written::{Section, Table};
+use crate::written::{Node, Section, Table, Value};
 
 /// How long, and how often something is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,22 +19,59 @@ pub struct Time {
 /// The watch over disorder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Monitor {
-    /// Zigzag (root mean square over the spacing) beyond which the run warns; `None` for never.
-    pub zigzag: Option<f64>,
-    /// Time between two measurements, s.
+    /// Zigzag (root mean square over the spacing) above which the run warns.
+    pub zigzag: f64,
+    /// Length of a bond over the spacing below which it does.
+    pub bond_min: f64,
+    /// Share of broken bonds above which it does.
+    pub broken: f64,
+    /// Whether it ends there.
+    pub stop: bool,
+    /// Time between two looks at energies, contact and disorder, s.
     pub interval: f64,
+    /// Disorder is measured at a look so many steps, or so much time (s), after the last time.
+    pub apart: (u64, f64),
 }
 
 /// Both tables. (The keys `cfl` and `step` belong to the schemes.)
 pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Option<(Time, Monitor)> {
     let time = time(root, scope, problems)?;
-    let mut monitor = Monitor { zigzag: None, interval: time.output };
+    let mut monitor = Monitor {
+        zigzag: defaults::ZIGZAG,
+        bond_min: defaults::BOND_MIN,
+        broken: defaults::BROKEN,
+        stop: false,
+        interval: time.output,
+        apart: (defaults::DISORDER_STEPS, time.end / defaults::DISORDER_SAMPLES),
+    };
     let Some(node) = root.get("monitor") else { return Some((time, monitor)) };
     let section = problems.keep(Section::of(node, "[monitor]"))?;
     section.only(monitor_keys::TABLE.keys, problems);
-    monitor.zigzag = problems.keep(scope.get(&section, &monitor_keys::ZIGZAG)).flatten();
-    monitor.interval = problems.keep(scope.get(&section, &monitor_keys::INTERVAL))?.unwrap_or(time.output);
+    let mut threshold = |key, default: &mut f64| {
+        if let Some(Some(given)) = problems.keep(scope.get(&section, key)) {
+            *default = given;
+        }
+    };
+    threshold(&monitor_keys::ZIGZAG, &mut monitor.zigzag);
+    threshold(&monitor_keys::BOND_MIN, &mut monitor.bond_min);
+    threshold(&monitor_keys::BROKEN, &mut monitor.broken);
+    if let Some(interval) = problems.keep(scope.get(&section, &monitor_keys::INTERVAL))? {
+        (monitor.interval, monitor.apart) = (interval, (0, 0.0));
+    }
+    if let Some(node) = section.get(monitor_keys::STOP.name) {
+        monitor.stop = problems.keep(flag(node, &monitor_keys::STOP)).unwrap_or_default();
+    }
     Some((time, monitor))
+}
+
+fn flag(node: &Node, key: &Key) -> Result<bool, Diagnostic> {
+    match node.value {
+        Value::Bool(flag) => Ok(flag),
+        _ => Err(Diagnostic::at(
+            node.place,
+            format!("`{}` has to be `true` or `false`, found {}", key.name, node.found()),
+        )),
+    }
 }
 
 fn time(root: &Table, scope: &Scope, problems: &mut Problems) -> Option<Time> {

@@ -1,15 +1,18 @@
 //! The keys of a case file: each stands once, with its kind, unit, default and meaning. What the reader accepts, the
 //! JSON schema for editors and the manual's reference page are all made from these tables.
 
+pub(crate) mod load;
 mod page;
 mod parts;
 mod schema;
 mod shapes;
+mod statics;
 mod top;
 mod touch;
 
 pub(crate) use parts::{body, boundary, gravity, initial, measure, probe};
 pub(crate) use shapes::{fill, shape};
+pub(crate) use statics::{damping, quasi_static};
 pub(crate) use top::{case, material, monitor, region, time};
 pub(crate) use touch::{contact, tool};
 
@@ -41,6 +44,8 @@ pub enum Kind {
     NamesOf(&'static str),
     /// `true`.
     True,
+    /// `true` or `false`.
+    Flag,
     /// One of these whole numbers.
     OneOf(&'static [i64]),
     /// A whole number from 1 on.
@@ -57,6 +62,10 @@ pub enum Kind {
     Pairs(Dimension),
     /// One expression of the reference position x, y, z per axis.
     Place(Dimension),
+    /// One expression of the reference position x, y, z and the time t.
+    Scalar(Dimension),
+    /// A factor over time: pairs of time and number, or the name of a file of them.
+    History,
     /// One expression of the reference position x, y, z and the time t per axis.
     Field(Dimension),
     /// One expression of the time t per axis.
@@ -107,7 +116,9 @@ impl Kind {
     pub(crate) fn dimension(self) -> Option<Dimension> {
         match self {
             Self::Number(d, _) | Self::Vector(d) | Self::Pair(d) | Self::Pairs(d) => Some(d),
-            Self::Place(d) | Self::Field(d) | Self::FieldOrFree(d) | Self::OfTime(d) => Some(d),
+            Self::Place(d) | Self::Scalar(d) | Self::Field(d) | Self::FieldOrFree(d) | Self::OfTime(d) => {
+                Some(d)
+            }
             Self::AngleOfTime => Some(Dimension::NUMBER),
             _ => None,
         }

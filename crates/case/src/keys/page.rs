@@ -71,6 +71,7 @@ fn value(kind: &Kind) -> String {
         Kind::NameOf(part) => return format!("name of a {part}"),
         Kind::NamesOf(part) => return format!("list of one or two names of a {part}"),
         Kind::True => "`true`",
+        Kind::Flag => "`true` or `false`",
         Kind::OneOf(numbers) => {
             return numbers.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(" or ");
         }
@@ -80,6 +81,8 @@ fn value(kind: &Kind) -> String {
         Kind::Pair(_) => "two numbers",
         Kind::Pairs(_) => "list of points",
         Kind::Place(_) => "expression of x, y, z per axis",
+        Kind::Scalar(_) => "expression of x, y, z, t",
+        Kind::History => "list of [time, factor], or name of a CSV file",
         Kind::Field(_) => "expression of x, y, z, t per axis",
         Kind::OfTime(_) => "expression of t per axis",
         Kind::AngleOfTime => "expression of t",

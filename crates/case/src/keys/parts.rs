@@ -52,6 +52,12 @@ pub(crate) mod body {
 pub(crate) mod boundary {
     use super::*;
 
+    pub(crate) const NAME: Key = Key::new(
+        "name",
+        Kind::Name,
+        Need::Default("boundary-1, -2, ..."),
+        "Its name, for probes of its reaction and in reactions.csv.",
+    );
     pub(crate) const BODY: Key = body_of("all bodies");
     pub(crate) const REGION: Key = region(Need::Required);
     pub(crate) const EXCEPT: Key =
@@ -76,7 +82,7 @@ pub(crate) mod boundary {
     pub(crate) const TABLE: Table = Table {
         header: "[[boundary]]",
         doc: "Particles whose motion is prescribed: exactly one of fixed, fix, velocity and displacement.",
-        keys: &[BODY, REGION, EXCEPT, CONSTRAINTS[0], CONSTRAINTS[1], CONSTRAINTS[2], CONSTRAINTS[3]],
+        keys: &[NAME, BODY, REGION, EXCEPT, CONSTRAINTS[0], CONSTRAINTS[1], CONSTRAINTS[2], CONSTRAINTS[3]],
         example: "[[boundary]]\nregion = \"foot\"\nfixed = true",
     };
 }
@@ -132,13 +138,19 @@ pub(crate) mod probe {
         "at",
         Kind::Vector(Dimension::LENGTH),
         Need::Optional,
-        "The material point to follow, by its reference position; either this or `region` (neither for what contact does).",
+        "The material point to follow, by its reference position; either this or `region` or `of` (none for what contact does).",
     );
     pub(crate) const REGION: Key = Key::new(
         "region",
         Kind::Shape,
         Need::Optional,
-        "Follow the mean over the particles whose reference position is in this shape; either this or `at`.",
+        "Follow the mean over the particles whose reference position is in this shape; either this or `at` or `of`.",
+    );
+    pub(crate) const OF: Key = Key::new(
+        "of",
+        Kind::NameOf("boundary"),
+        Need::Optional,
+        "The boundary whose reaction is recorded: what it has to exert, the mean since the sample before; for the quantities `reaction` and `moment`.",
     );
     pub(crate) const BODY: Key = Key::new(
         "body",
@@ -155,7 +167,7 @@ pub(crate) mod probe {
     pub(crate) const QUANTITY: Key = Key::new(
         "quantity",
         Kind::Choice(Quantity::choices),
-        Need::Default("displacement"),
+        Need::Default("displacement; reaction with `of`"),
         "What is recorded.",
     );
     pub(crate) const INTERVAL: Key = Key::new(
@@ -164,10 +176,16 @@ pub(crate) mod probe {
         Need::Default("0"),
         "Time between two samples; 0 is every step.",
     );
+    pub(crate) const REFERENCE: Key = Key::new(
+        "reference",
+        Kind::Text,
+        Need::Optional,
+        "A table of curves to compare with, drawn dashed into the plot: a CSV file beside the case file, with a first line such as `time [s],y [m]`, and lines `# ...` before it that say where the curves come from.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[[probe]]",
-        doc: "A material point (or a region) whose motion is recorded, or a body or tool that is pushed.",
-        keys: &[NAME, AT, REGION, BODY, BY, QUANTITY, INTERVAL],
+        doc: "A material point (or a region) whose motion is recorded, a boundary whose reaction is, or a body or tool that is pushed.",
+        keys: &[NAME, AT, REGION, OF, BODY, BY, QUANTITY, INTERVAL, REFERENCE],
         example: "[[probe]]\nname = \"tip\"\nat = [\"L\", \"H/2\"]",
     };
 }
@@ -185,7 +203,7 @@ pub(crate) mod measure {
         "probe",
         Kind::NameOf("probe"),
         Need::Optional,
-        "The probe whose curve is read; for kinds that read a curve, and for `most-turns`.",
+        "The probe whose curve is read; for kinds that read a curve, and for turns.",
     );
     pub(crate) const COMPONENT: Key = Key::new(
         "component",
@@ -215,13 +233,13 @@ pub(crate) mod measure {
         "time",
         Kind::Number(Dimension::TIME, Range::NotNegative),
         Need::Optional,
-        "When; for `value-at`.",
+        "When; for `value-at` and `turns-at`.",
     );
     pub(crate) const AXIS: Key = Key::new(
         "axis",
         Kind::Choice(Axis::choices),
         Need::Optional,
-        "The axis that the probe goes around, right-handed, through the origin; in 2D z; for `most-turns`.",
+        "The axis that the probe goes around, right-handed, through the origin; in 2D z; for turns.",
     );
     pub(crate) const BODY: Key = Key::new(
         "body",

@@ -92,9 +92,15 @@ fn kind(kind: &Kind) -> Value {
             json!({ "type": "array", "items": name, "minItems": 1, "maxItems": 2 })
         }
         Kind::True => json!({ "const": true }),
+        Kind::Flag => json!({ "type": "boolean" }),
         Kind::OneOf(numbers) => json!({ "enum": numbers }),
         Kind::Count => json!({ "type": "integer", "minimum": 1 }),
         Kind::Number(_, range) => bounded(range),
+        Kind::Scalar(_) => bounded(Range::Any),
+        Kind::History => {
+            let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
+            json!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": pair, "minItems": 1 }] })
+        }
         Kind::OfProbe => bounded(Range::Positive),
         Kind::AngleOfTime => number,
         Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) | Kind::OfTime(_) => {

@@ -3,10 +3,11 @@
 /// The top level.
 pub(crate) mod case {
     use super::super::{
-        Key, Kind, Need, Range, Table, Words, body, boundary, contact, gravity, initial, measure, probe, tool,
+        Key, Kind, Need, Range, Table, Words, body, boundary, contact, damping, gravity, initial, load,
+        measure, probe, quasi_static, tool,
     };
     use super::{material, monitor, region, time};
-    use crate::checked::{Formulation, Kernel, Plane, Stepping};
+    use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
     use crate::units::Dimension;
 
     pub(crate) const NAME: Key = Key::new(
@@ -65,6 +66,18 @@ pub(crate) mod case {
         Need::Default("0"),
         "Least speed of the advection step of updated Lagrangian bodies: they renew their neighbours at least as often as if something moved at this speed. For bodies that come to rest.",
     );
+    pub(crate) const ALPHA: Key = Key::new(
+        "alpha",
+        Kind::Number(Dimension::NUMBER, Range::NotNegative),
+        Need::Default("10"),
+        "Strength of the hourglass control of `tl-ganzenmueller`: a number to be tuned. Too little lets zigzag grow, too much makes bodies too stiff.",
+    );
+    pub(crate) const CALIBRATION: Key = Key::new(
+        "calibration",
+        Kind::Choice(Calibration::choices),
+        Need::Default("paper"),
+        "The factors of the force of `tl-hourglass-free`.",
+    );
     const PARAMETERS: Key = Key::new(
         "parameters",
         Kind::Parameters,
@@ -91,6 +104,8 @@ pub(crate) mod case {
             KERNEL,
             SMOOTHING,
             REFERENCE_SPEED,
+            ALPHA,
+            CALIBRATION,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),
@@ -100,7 +115,10 @@ pub(crate) mod case {
             table("boundary", Kind::List(&boundary::TABLE), Need::Optional, &boundary::TABLE),
             table("initial", Kind::List(&initial::TABLE), Need::Optional, &initial::TABLE),
             table("gravity", Kind::List(&gravity::TABLE), Need::Optional, &gravity::TABLE),
+            table("load", Kind::List(&load::TABLE), Need::Optional, &load::TABLE),
             table("time", Kind::Table(&time::TABLE), Need::Required, &time::TABLE),
+            table("damping", Kind::Table(&damping::TABLE), Need::Optional, &damping::TABLE),
+            table("quasi_static", Kind::Table(&quasi_static::TABLE), Need::Optional, &quasi_static::TABLE),
             table("monitor", Kind::Table(&monitor::TABLE), Need::Optional, &monitor::TABLE),
             table("probe", Kind::List(&probe::TABLE), Need::Optional, &probe::TABLE),
             table("measure", Kind::List(&measure::TABLE), Need::Optional, &measure::TABLE),
@@ -209,19 +227,37 @@ pub(crate) mod monitor {
     pub(crate) const ZIGZAG: Key = Key::new(
         "zigzag",
         Kind::Number(Dimension::NUMBER, Range::Positive),
-        Need::Default("no warning"),
-        "The run warns when the root mean square of the zigzag over the spacing is larger: zero-energy modes grow.",
+        Need::Default("0.06"),
+        "The run warns, once, when the root mean square of the zigzag over the spacing is larger: zero-energy modes grow.",
+    );
+    pub(crate) const BOND_MIN: Key = Key::new(
+        "bond_min",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("0.3"),
+        "The run warns, once, when two particles that were neighbours come closer than this many spacings.",
+    );
+    pub(crate) const BROKEN: Key = Key::new(
+        "broken",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("0.01"),
+        "The run warns, once, when a larger share of the bonds between neighbours is broken: one and a half times as long as the strain around them makes them.",
+    );
+    pub(crate) const STOP: Key = Key::new(
+        "stop",
+        Kind::Flag,
+        Need::Default("false"),
+        "Whether the run ends, with a diagnosis, where it would warn.",
     );
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output"),
-        "Time between two measurements of disorder and energies.",
+        Need::Default("as [time] output; disorder 600 steps or end/10 apart"),
+        "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {
         header: "[monitor]",
         doc: "The watch over the disorder of the particles.",
-        keys: &[ZIGZAG, INTERVAL],
-        example: "[monitor]\nzigzag = \"1 %\"",
+        keys: &[ZIGZAG, BOND_MIN, BROKEN, STOP, INTERVAL],
+        example: "[monitor]\nzigzag = \"1 %\"\nstop = true",
     };
 }

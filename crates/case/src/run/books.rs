@@ -1,10 +1,12 @@
 //! Closing the books: `summary.json`.
 
+use super::convergence::Convergence;
+use super::diagnosis::Evidence;
 use super::error::RunError;
-use super::measures::Evidence;
+use super::measures;
 use super::writer::Writer;
 use crate::Case;
-use output::summary::{Balance, Energy, Failure, Momentum, Status};
+use output::summary::{Failure, Settled, Status};
 use output::{ResultDir, Summary};
 use taut::field::Quantity;
 use taut::integrator::Diverged;
@@ -18,6 +20,8 @@ pub struct Books<'a> {
     pub results: &'a ResultDir,
     /// The simulation, at its end.
     pub simulation: &'a Simulation,
+    /// Particles across the thinnest part of each body.
+    pub across: &'a [usize],
     /// What it computed with.
     pub numbers: Numbers,
     /// What was written.
@@ -26,6 +30,8 @@ pub struct Books<'a> {
     pub start: Option<Totals>,
     /// Wall time, s.
     pub wall: f64,
+    /// What became of the increments of a quasi-static run.
+    pub convergence: Option<Convergence>,
 }
 
 impl Books<'_> {
@@ -33,9 +39,10 @@ impl Books<'_> {
     ///
     /// # Errors
     /// If the summary cannot be written.
-    pub fn done(self) -> Result<Summary, RunError> {
+    pub fn done(mut self) -> Result<Summary, RunError> {
         let results = self.results;
-        let summary = Summary { status: Status::Done, ..self.summary() };
+        let quasi_static = self.settle()?;
+        let summary = Summary { status: Status::Done, quasi_static, ..self.summary() };
         summary.write(results)?;
         Ok(summary)
     }
@@ -43,12 +50,23 @@ impl Books<'_> {
     /// Closes the books of a run that diverged; hands back the error to report.
     ///
     /// # Errors
-    /// If the summary cannot be written.
-    pub fn diverged(self, diverged: Diverged) -> Result<RunError, RunError> {
+    /// If diagnosis or summary cannot be written.
+    pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
+        let quasi_static = self.settle()?;
+        let Self { case, across, simulation, writer, .. } = &self;
+        Evidence { case, across, simulation, writer, diverged: &diverged }.write(results)?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
-        failed(summary, &diverged).write(results)?;
+        Summary { quasi_static, ..failed(summary, &diverged) }.write(results)?;
         Ok(RunError::Diverged { diverged: Box::new(diverged), results: results.path().to_path_buf() })
+    }
+
+    /// What the summary says of increments; a warning goes to the others.
+    fn settle(&mut self) -> Result<Option<Settled>, RunError> {
+        let Some(convergence) = self.convergence.take() else { return Ok(None) };
+        let (settled, warning) = convergence.settled(self.case)?;
+        self.writer.warnings.extend(warning);
+        Ok(Some(settled))
     }
 
     /// The summary of a run whose initial state is not admissible.
@@ -70,7 +88,7 @@ impl Books<'_> {
         let mut snapshot = Snapshot::default();
         let end = simulation.snapshot(&mut snapshot);
         let start = self.start.unwrap_or_default();
-        let evidence = Evidence {
+        let evidence = measures::Evidence {
             series: &writer.series,
             start,
             end,
@@ -86,11 +104,8 @@ impl Books<'_> {
             end_time: simulation.time(),
             wall_seconds: self.wall,
             particle_steps_per_second: n * steps as f64 / self.wall.max(1e-9),
-            energy: energy(&start, &end, writer.energies.clone()),
-            momentum: Momentum {
-                linear: Balance::new(start.momentum, end.momentum),
-                angular: Balance::new(start.angular_momentum, end.angular_momentum),
-            },
+            energy: writer.audit.energy(&start, &end),
+            momentum: writer.audit.momentum(&start, &end),
             disorder: writer.disorder.summary(),
             measured: evidence.measured(self.case),
             ..self.nothing()
@@ -116,22 +131,6 @@ fn mass(simulation: &Simulation) -> Vec<f64> {
         first += solver.len();
     }
     mass
-}
-
-fn energy(start: &Totals, end: &Totals, history: Vec<[f64; 4]>) -> Energy {
-    let initial = start.kinetic + start.strain + start.contact;
-    let at_end = end.kinetic + end.strain + end.contact;
-    Energy {
-        initial,
-        at_end,
-        kinetic: end.kinetic,
-        strain: end.strain,
-        contact: end.contact,
-        dissipated: end.dissipated,
-        external_work: end.external_work,
-        residual: initial + end.external_work - end.dissipated - at_end,
-        history,
-    }
 }
 
 fn failed(summary: Summary, diverged: &Diverged) -> Summary {

@@ -20,13 +20,16 @@ pub enum RunError {
         cause: OutputError,
     },
     /// The run diverged; what it had is in `results`.
-    #[error("{diverged}\nwhat was written up to then is in {}", results.display())]
+    #[error("{diverged}\nwhat was written up to then is in {}; read diagnosis.md there", results.display())]
     Diverged {
         /// What happened.
         diverged: Box<Diverged>,
         /// Where the results are.
         results: PathBuf,
     },
+    /// A few steps, taken to see what a run will cost, diverged; nothing was written.
+    #[error("the first steps of this case fail: {0}")]
+    Tried(Box<Diverged>),
     /// The arrangement of particles could not be measured.
     #[error("the disorder of the particles cannot be measured: {0}")]
     Disorder(#[from] DisorderError),

@@ -1,25 +1,72 @@
 //! Snapshots as frames for files and pictures.
 
 use output::{Array, Frame, Values};
+use std::sync::Arc;
 use taut::field::Quantity;
 use taut::simulation::Snapshot;
 
-/// Makes a frame; `deformation` holds the deformation gradients, row by row.
-pub fn frame(snapshot: &Snapshot, deformation: &[[f64; 9]], spacing: f64, step: u64) -> Frame {
-    let n = snapshot.body.len();
-    let pressure = snapshot.cauchy.iter().map(|s| -(s[0] + s[4] + s[8]) / 3.0).collect();
-    let scalar = |q: Quantity, values: Vec<f64>| Array::scalar(q.name(), q.unit(), Values::F64(values));
-    let arrays = vec![
-        Array::vector("Displacement", "m", snapshot.displacement.clone()),
-        Array::vector("Velocity", "m/s", snapshot.velocity.clone()),
-        scalar(Quantity::Density, snapshot.density.clone()),
-        scalar(Quantity::Pressure, pressure),
-        scalar(Quantity::VonMisesStress, snapshot.von_mises.clone()),
-        Array::tensor("CauchyStress", "Pa", snapshot.cauchy.clone()),
-        Array::tensor("DeformationGradient", "1", deformation.to_vec()),
-        scalar(Quantity::ParticleSpacing, vec![spacing; n]),
-        Array::scalar("ParticleId", "1", Values::I64((0..n as i64).collect())),
-        Array::scalar("Body", "1", Values::I64(snapshot.body.iter().map(|&b| i64::from(b)).collect())),
-    ];
-    Frame { time: snapshot.time, step, points: snapshot.positions().collect(), arrays }
+/// Makes frames. What never changes in a run is made once.
+#[derive(Debug)]
+pub struct Framer {
+    spacing: f64,
+    lasting: Lasting,
+}
+
+/// What all frames of a run have in common.
+#[derive(Debug, Default)]
+struct Lasting {
+    spacing: Arc<Vec<f32>>,
+    id: Arc<Vec<i32>>,
+    body: Arc<Vec<i32>>,
+}
+
+impl Framer {
+    /// For particles of this spacing, m.
+    pub fn new(spacing: f64) -> Self {
+        Self { spacing, lasting: Lasting::default() }
+    }
+
+    /// Makes a frame; `deformation` holds the deformation gradients, row by row.
+    pub fn frame(&mut self, snapshot: &Snapshot, deformation: &[[f64; 9]], step: u64) -> Frame {
+        let n = snapshot.body.len();
+        if self.lasting.body.len() != n {
+            self.lasting = Lasting {
+                spacing: Arc::new(vec![self.spacing as f32; n]),
+                id: Arc::new((0..n as i32).collect()),
+                body: Arc::new(snapshot.body.iter().map(|&body| body as i32).collect()),
+            };
+        }
+        let pressure = |s: &[f64; 9]| (-(s[0] + s[4] + s[8]) / 3.0) as f32;
+        let pressure = snapshot.cauchy.iter().map(pressure).collect();
+        let whole =
+            |name: &str, values: &Arc<Vec<i32>>| Array::scalar(name, "1", Values::Whole(Arc::clone(values)));
+        let spacing = Values::Shared(Arc::clone(&self.lasting.spacing));
+        let arrays = vec![
+            several("Displacement", "m", &snapshot.displacement),
+            several("Velocity", "m/s", &snapshot.velocity),
+            of(Quantity::Density, Values::F32(single(&snapshot.density))),
+            of(Quantity::Pressure, Values::F32(pressure)),
+            of(Quantity::VonMisesStress, Values::F32(single(&snapshot.von_mises))),
+            several("CauchyStress", "Pa", &snapshot.cauchy),
+            several("DeformationGradient", "1", deformation),
+            of(Quantity::ParticleSpacing, spacing),
+            whole("ParticleId", &self.lasting.id),
+            whole("Body", &self.lasting.body),
+        ];
+        Frame { time: snapshot.time, step, points: snapshot.positions().collect(), arrays }
+    }
+}
+
+fn single(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&value| value as f32).collect()
+}
+
+fn of(quantity: Quantity, values: Values) -> Array {
+    Array::scalar(quantity.name(), quantity.unit(), values)
+}
+
+/// A vector or a tensor, row by row.
+fn several<const N: usize>(name: &str, unit: &str, values: &[[f64; N]]) -> Array {
+    let values = Values::F32(single(values.as_flattened()));
+    Array { name: name.to_string(), unit: unit.to_string(), components: N, values }
 }

@@ -22,6 +22,12 @@ impl DisorderHistory {
         self.samples.push((time, sample));
     }
 
+    /// Zigzag (root mean square) of the first and of the last sample, and the time of that, s.
+    pub fn zigzag(&self) -> Option<(f64, f64, f64)> {
+        let ((_, first), (time, last)) = (self.samples.first()?, self.samples.last()?);
+        Some((first.zigzag_rms, last.zigzag_rms, *time))
+    }
+
     fn worst(&self, bad: Bad, value: impl Fn(&disorder::Disorder) -> f64) -> Worst {
         let history: Vec<[f64; 2]> = self.samples.iter().map(|(t, d)| [*t, value(d)]).collect();
         let badness = |[_, v]: &[f64; 2]| if bad == Bad::Large { *v } else { -*v };

@@ -50,11 +50,11 @@ impl Evidence<'_> {
                     ..measured
                 })
             }
-            MeasureKind::MostTurns { probe, axis } => {
+            MeasureKind::Turns { probe, axis, feature } => {
                 let Series { times, values } = &self.series[*probe];
                 let (first, second) = ((axis.index() + 1) % 3, (axis.index() + 2) % 3);
                 let turns = turns(&values[first], &values[second]);
-                feature_of(&Curve { times, values: &turns }, &Feature::Maximum, "1")
+                feature_of(&Curve { times, values: &turns }, feature, "1")
             }
             MeasureKind::KineticRatio => Measured::value(self.end.kinetic / self.start.kinetic, "1"),
             MeasureKind::ContactStart => match self.contact {

@@ -1,13 +1,18 @@
 //! Running a case: the only time loop of the project.
 
+mod alarm;
+mod audit;
 mod books;
 mod contact;
+mod convergence;
 pub mod curves;
+mod diagnosis;
 mod error;
 mod frames;
 mod history;
 mod measures;
 mod memory;
+mod reactions;
 mod recorder;
 mod sheet;
 mod trial;
@@ -18,17 +23,19 @@ pub use error::RunError;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
-use crate::build::{Built, build};
+use crate::build::{Built, build, increments};
+use alarm::Alarm;
 use books::Books;
+use convergence::Convergence;
 use output::manifest::Machine;
 use output::{Frame, Manifest, ResultDir, Summary};
 use recorder::Recorder;
 use sheet::{WriterGone, sheets};
 use std::path::PathBuf;
 use std::time::Instant;
-use taut::integrator::Diverged;
+use taut::integrator::{Cause, Diverged};
 use taut::run::InstructionSet;
-use taut::simulation::{Numbers, Simulation, Totals};
+use taut::simulation::{Increment, Numbers, QuasiStatic, Simulation, Totals};
 use watcher::Watcher;
 use writer::Writer;
 
@@ -62,6 +69,8 @@ pub trait Observer: Send {
     fn started(&mut self, _case: &Case, _particles: usize, _threads: usize) {}
     /// A doubt about the case or the run.
     fn warned(&mut self, _warning: &str) {}
+    /// An increment of a quasi-static run is over, of so many.
+    fn settled(&mut self, _increment: &Increment, _of: u32) {}
     /// Where the run stands; called after every step.
     fn stepped(&mut self, _progress: &Progress) {}
     /// A frame was written.
@@ -115,19 +124,24 @@ fn in_pool(
     let precision = built.numbers.name();
     Manifest::new(case.case_text_as_run(), machine, threads.current_num_threads(), precision)
         .write(results)?;
-    let Built { solvers, contact, drives, probes, watch, numbers, warnings, .. } = built;
+    let Built { solvers, contact, drives, grips, damping, probes, watch, numbers, warnings, across, .. } =
+        built;
     let writer = Writer::create(case, results, watch, warnings)?;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Instant::now());
-    let mut simulation = Simulation::new(solvers, drives).touching(contact);
+    let mut simulation = Simulation::new(solvers, drives).damped(damping).touching(contact);
+    simulation.hold(grips);
+    let mut convergence = increments(case).map(|_| Convergence::create(results)).transpose()?;
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
+    let alarm = writer.alarm.clone();
     let mut written = None;
     let marched = desk.in_place_scope(|scope| {
         let (written, watcher) = (&mut written, &watcher);
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
-        let march = March { case, simulation: &mut simulation, watcher, clock };
+        let convergence = convergence.as_mut();
+        let march = March { case, simulation: &mut simulation, convergence, watcher, alarm: &alarm, clock };
         march.finish(Recorder::new(case, probes, outbox))
     });
     let writer = written.transpose()?;
@@ -135,7 +149,9 @@ fn in_pool(
         return Err(RunError::Writer);
     };
     let wall = clock.elapsed().as_secs_f64();
-    let books = Books { case, results, simulation: &simulation, numbers, writer, start, wall };
+    let across = &across;
+    let simulation = &simulation;
+    let books = Books { case, results, simulation, across, numbers, writer, start, wall, convergence };
     match stopped {
         None => books.done(),
         Some(diverged) => Err(books.diverged(diverged)?),
@@ -146,7 +162,9 @@ fn in_pool(
 struct March<'a> {
     case: &'a Case,
     simulation: &'a mut Simulation,
+    convergence: Option<&'a mut Convergence>,
     watcher: &'a Watcher<'a>,
+    alarm: &'a Alarm,
     clock: Instant,
 }
 
@@ -158,7 +176,8 @@ impl March<'_> {
         let stopped = self.steps(&mut recorder)?;
         let start = recorder.start;
         match stopped {
-            None => recorder.end(self.simulation)?,
+            // Disorder is no wrong number: the state as it stopped is as good as any.
+            None | Some(Diverged { cause: Cause::Disordered, .. }) => recorder.end(self.simulation)?,
             Some(_) => recorder.abandon(self.simulation)?,
         }
         Ok((start, stopped))
@@ -169,17 +188,56 @@ impl March<'_> {
             return Ok(Some(diverged));
         }
         recorder.begin(self.simulation)?;
+        if let Some(increments) = increments(self.case) {
+            let own = self.case.damping.is_none();
+            let statics = QuasiStatic::new(self.simulation, increments, own);
+            return self.settle(recorder, statics);
+        }
         let end = self.case.time.end;
         while self.simulation.time() < end {
             if let Err(diverged) = self.simulation.step() {
                 return Ok(Some(diverged));
             }
             recorder.after_step(self.simulation)?;
-            let wall = self.clock.elapsed().as_secs_f64();
-            let progress =
-                Progress { time: self.simulation.time(), end, step: self.simulation.steps(), wall };
-            self.watcher.with(|observer| observer.stepped(&progress));
+            self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Some(stopped));
+            }
         }
         Ok(None)
+    }
+
+    /// From equilibrium to equilibrium; only equilibria are noted.
+    fn settle(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        mut statics: QuasiStatic,
+    ) -> Result<Option<Diverged>, WriterGone> {
+        let of = self.case.quasi_static.map_or(0, |s| s.increments);
+        while !statics.is_done() {
+            match statics.step(self.simulation) {
+                Err(diverged) => return Ok(Some(diverged)),
+                Ok(None) => {}
+                Ok(Some(increment)) => {
+                    recorder.after_step(self.simulation)?;
+                    if let Some(convergence) = self.convergence.as_deref_mut() {
+                        convergence.push(increment);
+                    }
+                    self.watcher.with(|observer| observer.settled(&increment, of));
+                }
+            }
+            self.stepped();
+            if let Some(stopped) = self.alarm.stops(self.simulation) {
+                return Ok(Some(stopped));
+            }
+        }
+        Ok(None)
+    }
+
+    fn stepped(&self) {
+        let wall = self.clock.elapsed().as_secs_f64();
+        let (time, end) = (self.simulation.time(), self.case.time.end);
+        let progress = Progress { time, end, step: self.simulation.steps(), wall };
+        self.watcher.with(|observer| observer.stepped(&progress));
     }
 }

@@ -11,6 +11,7 @@
 
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::Duration;
+use taut::integrator::Impulse;
 use taut::simulation::{Snapshot, Totals};
 
 /// So many samples of probes make a full sheet, even if nothing else is due.
@@ -39,10 +40,14 @@ pub struct Sheet {
     pub snapshot: Snapshot,
     /// Energies and momenta, likewise.
     pub totals: Totals,
+    /// Mean force and moment of every boundary since the sheet before that had particles on it; none at the first.
+    pub reactions: Vec<Impulse>,
     /// Steps taken.
     pub step: u64,
-    /// Whether to measure disorder and note the energies.
+    /// Whether to note the energies, and whether bodies touch.
     pub look: bool,
+    /// Whether to measure disorder as well.
+    pub measure: bool,
     /// Whether to write a frame.
     pub frame: bool,
 }
@@ -58,7 +63,8 @@ impl Sheet {
 
     fn wipe(&mut self) {
         self.samples.clear();
-        (self.look, self.frame) = (false, false);
+        self.reactions.clear();
+        (self.look, self.measure, self.frame) = (false, false, false);
     }
 }
 

@@ -1,21 +1,25 @@
 //! What a run writes down, off the critical path: disorder, frames and tables.
 
+use super::alarm::{Alarm, Thresholds};
+use super::audit::Audit;
 use super::contact::Contact;
 use super::error::RunError;
-use super::frames::frame;
+use super::frames::Framer;
 use super::history::DisorderHistory;
 use super::measures::Series;
 use super::sheet::{Inbox, Sheet};
 use super::watcher::Watcher;
 use crate::Case;
-use crate::build::{Observed, Watch};
+use crate::build::Watch;
 use output::{Frame, ProbeTable, ResultDir};
 use rayon::ThreadPool;
+use std::sync::Arc;
 
 /// The writer's side of the books.
 pub struct Writer<'a> {
     case: &'a Case,
     frames: output::Series,
+    framer: Framer,
     tables: Vec<ProbeTable>,
     watch: Box<dyn Watch>,
     deformation: Vec<[f64; 9]>,
@@ -24,10 +28,15 @@ pub struct Writer<'a> {
     pub series: Vec<Series>,
     /// Measures of disorder.
     pub disorder: DisorderHistory,
-    /// Time, kinetic, strain and total energy.
-    pub energies: Vec<[f64; 4]>,
+    /// The books of energy and momentum.
+    pub audit: Audit,
     /// What was doubtful.
     pub warnings: Vec<String>,
+    thresholds: Thresholds,
+    /// Where it is told that a run has to end.
+    pub alarm: Arc<Alarm>,
+    /// Time of the last frame, s.
+    framed: Option<f64>,
 }
 
 impl<'a> Writer<'a> {
@@ -43,24 +52,33 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
         for probe in &case.probes {
-            let (unit, axes) = (probe.quantity.unit(), probe.quantity.components(case.dimension));
-            let columns: Vec<(&str, &str)> =
-                ["x", "y", "z"].into_iter().take(axes).map(|axis| (axis, unit)).collect();
+            let axes = &["x", "y", "z"][probe.quantity.axes(case.dimension)];
+            let columns: Vec<(&str, &str)> = axes.iter().map(|axis| (*axis, probe.quantity.unit())).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
+        references(case, results)?;
         let support = 2.0 * case.spacing * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max);
         Ok(Self {
             case,
             frames: output::Series::create(results)?,
+            framer: Framer::new(case.spacing),
             tables,
             watch,
             deformation: Vec::new(),
             contact: Contact::new(support),
             series: vec![Series::default(); case.probes.len()],
             disorder: DisorderHistory::default(),
-            energies: Vec::new(),
+            audit: Audit::create(case, results)?,
             warnings,
+            thresholds: Thresholds::default(),
+            alarm: Arc::default(),
+            framed: None,
         })
+    }
+
+    /// How many frames there are, and the time of the last one, s.
+    pub fn last_frame(&self) -> Option<(usize, f64)> {
+        Some((self.frames.frames(), self.framed?))
     }
 
     /// When bodies first touched, s.
@@ -89,6 +107,7 @@ impl<'a> Writer<'a> {
             inbox.back(sheet);
             if let Some((frame, bytes)) = frame {
                 self.frames.store(&frame, &bytes)?;
+                self.framed = Some(frame.time);
                 self.flush()?;
                 watcher.with(|observer| observer.framed(frame));
             }
@@ -101,13 +120,13 @@ impl<'a> Writer<'a> {
         for table in &mut self.tables {
             table.flush()?;
         }
-        Ok(())
+        self.audit.flush()
     }
 
     fn tabulate(&mut self, sheet: &Sheet) -> Result<(), RunError> {
         for sample in &sheet.samples {
-            let axes = self.case.probes[sample.probe].quantity.components(self.case.dimension);
-            self.tables[sample.probe].push(sample.time, &sample.value[..axes])?;
+            let axes = self.case.probes[sample.probe].quantity.axes(self.case.dimension);
+            self.tables[sample.probe].push(sample.time, &sample.value[axes])?;
             let series = &mut self.series[sample.probe];
             series.times.push(sample.time);
             for (column, v) in series.values.iter_mut().zip(sample.value) {
@@ -119,6 +138,9 @@ impl<'a> Writer<'a> {
 
     /// What is due of the disorder and, if one is due, a frame with the bytes of its file.
     fn digest(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<Option<(Frame, Vec<u8>)>, RunError> {
+        if sheet.look || sheet.frame {
+            self.audit.look(sheet)?;
+        }
         if sheet.look {
             self.look(sheet, watcher)?;
         }
@@ -126,30 +148,44 @@ impl<'a> Writer<'a> {
             return Ok(None);
         }
         self.watch.deformation(&sheet.snapshot, &mut self.deformation);
-        let frame = frame(&sheet.snapshot, &self.deformation, self.case.spacing, sheet.step);
+        let frame = self.framer.frame(&sheet.snapshot, &self.deformation, sheet.step);
         let bytes = self.frames.encode(&frame)?;
         Ok(Some((frame, bytes)))
     }
 
     fn look(&mut self, sheet: &Sheet, watcher: &Watcher<'_>) -> Result<(), RunError> {
-        let (time, totals) = (sheet.snapshot.time, &sheet.totals);
-        self.energies.push([
-            time,
-            totals.kinetic,
-            totals.strain,
-            totals.kinetic + totals.strain + totals.contact,
-        ]);
-        let Observed { disorder, gap } = self.watch.measure(&sheet.snapshot, self.contact.is_awaited())?;
-        self.contact.look(time, gap);
-        let zigzag = disorder.zigzag_rms;
-        let warned = self.warnings.iter().any(|w| w.starts_with("disorder"));
-        if self.case.monitor.zigzag.is_some_and(|limit| zigzag > limit) && !warned {
-            let warning =
-                format!("disorder: zigzag_rms is {zigzag:.4} at t = {time:.6} s; zero-energy modes grow");
+        let time = sheet.snapshot.time;
+        if self.contact.is_awaited() {
+            self.contact.look(time, self.watch.gap(&sheet.snapshot)?);
+        }
+        if !sheet.measure {
+            return Ok(());
+        }
+        let disorder = self.watch.measure(&sheet.snapshot)?;
+        let monitor = &self.case.monitor;
+        for crossed in self.thresholds.crossed(monitor, &disorder) {
+            if monitor.stop {
+                self.alarm.raise(crossed, self.watch.most_zigzag().unwrap_or(0) as u32);
+            }
+            let warning = crossed.warning(time);
             watcher.with(|observer| observer.warned(&warning));
             self.warnings.push(warning);
         }
         self.disorder.push(time, disorder);
         Ok(())
     }
+}
+
+/// Keeps the curves that probes are compared with beside the results, so that plots can be made again from there.
+fn references(case: &Case, results: &ResultDir) -> Result<(), RunError> {
+    let mut folder = None;
+    for probe in &case.probes {
+        let Some(text) = probe.reference.as_ref().and_then(|curves| curves.text.as_ref()) else { continue };
+        let folder = match &mut folder {
+            Some(folder) => folder,
+            none => none.insert(results.folder("reference")?),
+        };
+        output::write_atomically(&folder.join(format!("{}.csv", probe.name)), text.as_bytes())?;
+    }
+    Ok(())
 }

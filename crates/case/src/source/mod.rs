@@ -48,6 +48,11 @@ impl Sources {
         self.texts.len() - 1
     }
 
+    /// The folder that the file is in.
+    pub(crate) fn folder(&self) -> std::path::PathBuf {
+        std::path::Path::new(&self.file).parent().map_or_else(std::path::PathBuf::new, Into::into)
+    }
+
     /// The text of the file.
     pub(crate) fn file_content(&self) -> &str {
         &self.texts[0]

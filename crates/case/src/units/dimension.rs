@@ -26,12 +26,15 @@ impl Dimension {
     pub const PRESSURE: Self = Self::new(1, -1, -2);
     /// m/s
     pub const SPEED: Self = Self::new(0, 1, -1);
-    /// N
-    pub const FORCE: Self = Self::new(1, 1, -2);
-    /// J, N m
-    pub const ENERGY: Self = Self::new(1, 2, -2);
+    /// Pa s
+    pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// m/s^2
     pub const ACCELERATION: Self = Self::new(0, 1, -2);
+
+    /// N (per metre of depth in 2D)
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// N m (likewise)
+    pub const MOMENT: Self = Self::new(1, 2, -2);
 
     /// From the exponents of kg, m and s.
     pub const fn new(mass: i8, length: i8, time: i8) -> Self {
@@ -81,11 +84,12 @@ const NAMES: &[(Dimension, &str, &str)] = &[
     (Dimension::PRESSURE, "a pressure", "Pa"),
     (Dimension::SPEED, "a speed", "m/s"),
     (Dimension::ACCELERATION, "an acceleration", "m/s^2"),
+    (Dimension::VISCOSITY, "a viscosity", "Pa s"),
     (Dimension::new(1, 0, 0), "a mass", "kg"),
     (Dimension::new(0, 2, 0), "an area", "m^2"),
     (Dimension::new(0, 3, 0), "a volume", "m^3"),
     (Dimension::new(0, 0, -1), "a frequency", "Hz"),
-    (Dimension::new(1, 1, -2), "a force", "N"),
+    (Dimension::FORCE, "a force", "N"),
     (Dimension::new(1, 2, -2), "an energy", "J"),
     (Dimension::new(1, 2, -3), "a power", "W"),
 ];

@@ -111,8 +111,12 @@ fn counted<const D: usize>(form: Form) -> Operations {
     let material = NeoHookean { moduli: moduli(), plane: Plane::Strain };
     let stress = updated::Hypoelastic { plane: Plane::Strain };
     match form {
-        Form::Total(TotalForm::HourglassFree) => operations::<D>(&total::HourglassFree::new(material, DP)),
+        Form::Total(TotalForm::HourglassFree(_)) => operations::<D>(&total::HourglassFree::new(material, DP)),
         Form::Total(TotalForm::Nested) => operations::<D>(&total::Nested::new(material, DP)),
+        Form::Total(TotalForm::Ganzenmueller(alpha)) => {
+            let kernel = Kernel::new(Shape::WendlandC2, DP, D);
+            operations::<D>(&total::Ganzenmueller::new(material, kernel, alpha))
+        }
         Form::Updated(UpdatedForm::NonHourglass, _) => {
             operations::<D>(&updated::NonHourglass::new(stress, D))
         }

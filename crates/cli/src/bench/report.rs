@@ -2,6 +2,7 @@
 
 use super::limits::Limits;
 use crate::Failure;
+use output::limited::{LONGEST_TEXT, read_text};
 use output::manifest::Machine;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -74,7 +75,7 @@ impl Report {
     /// Reads a file of `taut bench --json`.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let wrong = |what: String| Failure::Input(format!("cannot compare with {}: {what}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+        let text = read_text(path, LONGEST_TEXT).map_err(|error| wrong(error.to_string()))?;
         let hint = "expected a file that `taut bench --json FILE` has written";
         let json: serde_json::Value = serde_json::from_str(&text)
             .map_err(|error| wrong(format!("this is no JSON: {error}\n{hint}")))?;

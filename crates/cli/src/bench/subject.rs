@@ -1,10 +1,10 @@
 //! What is measured: every formulation in two and three dimensions, and what its speed depends on.
 
 use taut::integrator::Stepping;
-use taut::simulation::{Numbers, TotalForm, UpdatedForm};
+use taut::simulation::{Calibration, Numbers, TotalForm, UpdatedForm};
 
 /// A formulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// Total Lagrangian.
     Total(TotalForm),
@@ -22,7 +22,7 @@ pub enum Arrangement {
 }
 
 /// A body in slow motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subject {
     /// Its formulation.
     pub form: Form,
@@ -34,9 +34,10 @@ pub struct Subject {
     pub numbers: Numbers,
 }
 
-const FORMS: [Form; 6] = [
-    Form::Total(TotalForm::HourglassFree),
+const FORMS: [Form; 7] = [
+    Form::Total(TotalForm::HourglassFree(Calibration::Paper)),
     Form::Total(TotalForm::Nested),
+    Form::Total(TotalForm::Ganzenmueller(10.0)),
     Form::Updated(UpdatedForm::NonHourglass, Stepping::Dual),
     Form::Updated(UpdatedForm::NonHourglass, Stepping::Single),
     Form::Updated(UpdatedForm::Nested, Stepping::Dual),
@@ -67,8 +68,9 @@ impl Subject {
     /// Its name, from the general to the special.
     pub fn name(&self) -> String {
         let form = match self.form {
-            Form::Total(TotalForm::HourglassFree) => "tl-hourglass-free",
+            Form::Total(TotalForm::HourglassFree(_)) => "tl-hourglass-free",
             Form::Total(TotalForm::Nested) => "tl-nested",
+            Form::Total(TotalForm::Ganzenmueller(_)) => "tl-ganzenmueller",
             Form::Updated(UpdatedForm::NonHourglass, Stepping::Dual) => "ul-non-hourglass/dual-steps",
             Form::Updated(UpdatedForm::NonHourglass, Stepping::Single) => "ul-non-hourglass/single-steps",
             Form::Updated(UpdatedForm::Nested, Stepping::Dual) => "ul-nested/dual-steps",
@@ -101,9 +103,9 @@ mod tests {
     #[test]
     fn names_are_unique_and_words_choose() {
         let names: BTreeSet<String> = Subject::all().iter().map(Subject::name).collect();
-        assert_eq!(names.len(), 40);
+        assert_eq!(names.len(), 48);
         let words = |words: &[&str]| chosen(&words.iter().map(ToString::to_string).collect::<Vec<_>>()).len();
-        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (40, 8, 0));
+        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (48, 12, 0));
         assert_eq!(words(&["ul-nested/dual-steps/2d/lattice/single"]), 1);
     }
 }

@@ -116,15 +116,33 @@ struct WrittenCheck {
     scale: Option<f64>,
     #[serde(default = "one")]
     unit: String,
-    published: Option<f64>,
-    analytic: Option<f64>,
-    reference: Option<f64>,
+    published: Option<Values>,
+    analytic: Option<Values>,
+    reference: Option<Values>,
     relative: Option<f64>,
     absolute: Option<f64>,
     below: Option<f64>,
     above: Option<f64>,
     source: String,
     why: String,
+}
+
+/// One value for all runs of a check, or one for each.
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+enum Values {
+    Same(f64),
+    Each(Vec<f64>),
+}
+
+impl Values {
+    fn of(&self, index: usize, runs: usize) -> Result<f64, String> {
+        match self {
+            Self::Same(value) => Ok(*value),
+            Self::Each(values) if values.len() == runs => Ok(values[index]),
+            Self::Each(values) => Err(format!("{} values for {runs} runs", values.len())),
+        }
+    }
 }
 
 fn one() -> String {
@@ -143,10 +161,9 @@ impl Accept {
         }
         let mut checks = Vec::new();
         for check in &written.check {
-            for run in &check.runs {
-                checks.push(
-                    check.of(run, &runs).map_err(|what| format!("check `{}`: {what}", check.quantity))?,
-                );
+            for index in 0..check.runs.len() {
+                let of_run = check.of(index, &runs);
+                checks.push(of_run.map_err(|what| format!("check `{}`: {what}", check.quantity))?);
             }
         }
         Ok(Self { case: written.case, runs, checks })
@@ -165,11 +182,12 @@ impl Accept {
 }
 
 impl WrittenCheck {
-    fn of(&self, run: &str, runs: &[Run]) -> Result<Check, String> {
+    /// The check of one of its runs.
+    fn of(&self, index: usize, runs: &[Run]) -> Result<Check, String> {
         let find = |name: &str| {
             runs.iter().position(|run| run.name == name).ok_or_else(|| format!("there is no run `{name}`"))
         };
-        let run = find(run)?;
+        let run = find(&self.runs[index])?;
         let over = match (&self.over_run, &self.over) {
             (None, None) => None,
             (None, Some(path)) => Some((run, path.clone())),
@@ -182,17 +200,18 @@ impl WrittenCheck {
             over,
             scale: self.scale.unwrap_or(1.0),
             unit: self.unit.clone(),
-            target: self.target()?,
+            target: self.target(index)?,
             source: self.source.clone(),
             why: self.why.clone(),
         })
     }
 
-    fn target(&self) -> Result<Target, String> {
-        let expected = match (self.published, self.analytic, self.reference) {
-            (Some(value), None, None) => Some(Expected::Published(value)),
-            (None, Some(value), None) => Some(Expected::Analytic(value)),
-            (None, None, Some(value)) => Some(Expected::Reference(value)),
+    fn target(&self, index: usize) -> Result<Target, String> {
+        let value = |values: &Values| values.of(index, self.runs.len());
+        let expected = match (&self.published, &self.analytic, &self.reference) {
+            (Some(values), None, None) => Some(Expected::Published(value(values)?)),
+            (None, Some(values), None) => Some(Expected::Analytic(value(values)?)),
+            (None, None, Some(values)) => Some(Expected::Reference(value(values)?)),
             (None, None, None) => None,
             _ => return Err("only one of `published`, `analytic`, `reference`".to_string()),
         };
@@ -231,6 +250,17 @@ mod tests {
         let ratio = with("over_run = 'b'\nabove = 10").unwrap();
         assert!(ratio.is_full(&ratio.checks[0]));
         assert_eq!(ratio.checks[0].over, Some((1, ratio.checks[0].value.clone())));
+    }
+
+    #[test]
+    fn values_may_differ_from_run_to_run() {
+        let common = "quantity = 'q'\nvalue = 'measured.q'\nsource = 's'\nwhy = 'w'\nrelative = 0.1";
+        let parse = |rest: &str| Accept::parse(&format!("{RUNS}[[check]]\n{common}\n{rest}\n"));
+        let accept = parse("runs = ['a', 'b']\npublished = [1.0, 2.0]").unwrap();
+        let values: Vec<Target> = accept.checks.iter().map(|check| check.target).collect();
+        let near = |value| Target::Near(Expected::Published(value), Tolerance::Relative(0.1));
+        assert_eq!(values, [near(1.0), near(2.0)]);
+        assert!(parse("runs = ['a', 'b']\npublished = [1.0]").unwrap_err().contains("1 values for 2 runs"));
     }
 
     #[test]

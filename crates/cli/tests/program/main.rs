@@ -1,9 +1,13 @@
 //! The program as a user meets it: what is typed, what comes back, what lies in the result directory.
 
+mod audit;
 mod bench;
 mod cases;
 mod command_line;
+mod diagnosis;
 mod divergence;
+mod loads;
+mod report;
 mod results;
 mod wrong_input;
 

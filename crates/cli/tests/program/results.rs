@@ -79,7 +79,8 @@ fn assert_picture(path: &Path) {
 #[test]
 fn summary_and_manifest_have_the_names_of_the_contract() {
     let folder = with_case(BLOCK);
-    taut(folder.path(), &["run", "case.toml", "--threads", "1", "--set", "parameters.v0=5"]).with(0);
+    let set = ["--set", "parameters.v0=5", "--set", "monitor.interval=2e-5"];
+    taut(folder.path(), &[&["run", "case.toml", "--threads", "1"], &set[..]].concat()).with(0);
     let summary = json(&folder.path().join("out/block/summary.json"));
     let words = [
         ("case", "block"),

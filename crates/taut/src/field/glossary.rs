@@ -98,7 +98,7 @@ glossary! {
     Position: AsVector, "x", "m";
     /// Velocity.
     Velocity: AsVector, "v", "m/s";
-    /// Acceleration.
+    /// Acceleration by all forces but those of constraints.
     Acceleration: AsVector, "a", "m/s^2";
     /// Body force per mass.
     BodyForce: AsVector, "b", "m/s^2";
@@ -149,7 +149,7 @@ glossary! {
     AxialShearStressRate: AsScalar, "ds_zz/dt", "Pa/s";
     /// Energy dissipated by viscosity so far.
     Dissipated: AsScalar, "W_d", "J";
-    /// Work of the shear forces so far, positive when stored.
+    /// Work of the shear forces, or of an hourglass control, so far; positive when stored.
     ShearWork: AsScalar, "W_s", "J";
     /// Work done on the particle by body forces and prescribed motion so far.
     ExternalWork: AsScalar, "W_e", "J";
@@ -157,6 +157,8 @@ glossary! {
     ForceDensity: AsVector, "f", "N/m^3";
     /// Sum of (v_b - v_a) (x) grad W V_b (a sum over neighbours, not stored).
     VelocityGradient: AsTensor, "L", "1/s";
+    /// Force of an hourglass control per reference volume (a sum over neighbours, not stored).
+    ControlForce: AsVector, "g", "N/m^3";
     /// Divergence of velocity times -1 (a sum over neighbours, not stored).
     Compression: AsScalar, "-div v", "1/s";
     /// Viscous power per volume (a sum over neighbours, not stored).

@@ -23,7 +23,7 @@ pub struct Mover<S, const D: usize> {
 pub struct Kicked<S, const D: usize> {
     /// Velocity after, constraints included.
     pub v: Vector<S, D>,
-    /// Total acceleration before constraints.
+    /// Acceleration by all forces but those of constraints: of held particles too, where it says what holding them takes.
     pub a: Vector<S, D>,
     /// Mean of the velocities before and after.
     pub mean: Vector<S, D>,
@@ -44,11 +44,6 @@ impl<S: Real, const D: usize> Mover<S, D> {
         });
         let mean = (self.v + v).times(S::of(0.5));
         let push = (v - self.v).plus(-now.dt, internal);
-        Kicked {
-            v,
-            a: Vector::from_fn(|i| a[i] * self.free[i]),
-            mean,
-            external_work: self.m * push.dot(mean),
-        }
+        Kicked { v, a, mean, external_work: self.m * push.dot(mean) }
     }
 }

@@ -41,4 +41,6 @@ pub struct State {
     pub cauchy: Tensor<f64, 3>,
     /// Strain energy, J.
     pub strain_energy: f64,
+    /// What the damper has been booked with beyond the present time, J, where fields run ahead of it.
+    pub booked_ahead: f64,
 }

@@ -79,118 +79,52 @@ impl Limits {
     }
 }
 
-/// Why a run cannot go on.
+/// Which of the criteria of a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// The deformation gradient of a particle has no positive determinant.
-    Inverted,
-    /// A number that is not finite.
-    NotFinite,
-    /// The density left the range from a tenth to ten times its value at rest.
-    Density,
-    /// A speed above ten wave speeds.
-    Speed,
-    /// The pair list could not be made.
-    Unlisted,
+pub enum Criterion {
+    /// A wave may not cross more than a smoothing length: h / (c + |v|).
+    Wave,
+    /// Likewise the wave that the shear Laplacian of `ul-non-hourglass` makes.
+    ShearWave,
+    /// sqrt(h / |a|).
+    Acceleration,
 }
 
-impl Cause {
-    /// What it probably comes from and what to try.
+impl Criterion {
+    /// It, in symbols.
     #[must_use]
-    pub const fn hint(self) -> &'static str {
+    pub const fn formula(self) -> &'static str {
         match self {
-            Self::Inverted => {
-                "a particle turned inside out: the time step is too long for this stretch (try [time] step = \"stretch\" or a \
-                 smaller cfl), or the load is beyond what this resolution can carry"
-            }
-            Self::NotFinite => {
-                "the step became unstable: try a smaller [time] cfl; with a nested formulation, the disorder of \
-                 zero-energy modes ends like this too"
-            }
-            Self::Density => {
-                "particles were pressed together or torn apart: with ul-nested this is tensile instability, \
-                 otherwise try a smaller [time] cfl or a slower impact"
-            }
-            Self::Unlisted => {
-                "the neighbours cannot be listed: more than 2^32 pairs, or a smoothing length that is no length; use fewer \
-                 particles or a smaller `smoothing`"
-            }
-            Self::Speed => {
-                "a speed above ten wave speeds: the initial or prescribed velocity is far beyond what the material can follow, or the \
-                 time step is too long (try a smaller [time] cfl)"
-            }
+            Self::Wave => "h / (c + v)",
+            Self::ShearWave => "1.5 h / (c_M + v)",
+            Self::Acceleration => "sqrt(h / a)",
         }
     }
 }
 
-/// A run that had to stop.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "diverged at t = {time:.6e} s (step {step}): {field} of particle {particle} (body {body}, at {position:?} m) is {value}; \
-     likely cause: {}",
-    cause.hint()
-)]
-pub struct Diverged {
-    /// Stable id of the particle, as in the files.
-    pub particle: u32,
-    /// Index of its body.
-    pub body: usize,
-    /// Its reference position, m.
-    pub position: [f64; 3],
-    /// Name of the field that went wrong first.
-    pub field: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Time, s.
-    pub time: f64,
-    /// Number of the step.
-    pub step: u64,
-    /// What happened.
-    pub cause: Cause,
+/// What bounds a time step: the criterion, and what it sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounding {
+    /// The one that gives the shortest step.
+    pub criterion: Criterion,
+    /// The largest wave speed c, m/s.
+    pub wave_speed: f64,
+    /// The largest speed |v|, m/s.
+    pub speed: f64,
+    /// The largest acceleration |a|, m/s^2.
+    pub acceleration: f64,
 }
 
-impl Diverged {
-    /// A pair list that could not be made although every position is a number.
-    pub(crate) fn unlisted() -> Self {
-        Self {
-            particle: 0,
-            body: 0,
-            position: [0.0; 3],
-            field: "number of pairs",
-            value: f64::NAN,
-            time: 0.0,
-            step: 0,
-            cause: Cause::Unlisted,
+/// The particle, by id, with the largest of a number (or length of a vector); `None` if all have the same.
+pub(super) fn largest<const D: usize>(run: &impl Run<D>, field: Quantity) -> Option<u32> {
+    let words = field.rank().words(D);
+    let (mut most, mut least, mut place) = (f64::NEG_INFINITY, f64::INFINITY, 0);
+    for a in 0..run.particles().len() {
+        let size: f64 = (0..words).map(|w| run.word(field, w, a).powi(2)).sum();
+        least = least.min(size);
+        if size > most || size.is_nan() {
+            (most, place) = (size, a);
         }
     }
-}
-
-/// A test of one field: what it means if a value fails it, and whether it does.
-pub(crate) type Check<'a> = (Quantity, Cause, &'a dyn Fn(usize, f64) -> bool);
-
-/// Finds the first particle (by id) with something wrong in one of the fields; `None` if all is well.
-pub(crate) fn culprit<const D: usize>(run: &impl Run<D>, checks: &[Check<'_>]) -> Option<Diverged> {
-    let p = run.particles();
-    for &(field, cause, wrong) in checks {
-        let words = field.rank().words(D);
-        let found = (0..p.len())
-            .flat_map(|a| (0..words).map(move |w| (a, w)))
-            .map(|(a, w)| (a, run.word(field, w, a)))
-            .filter(|&(a, value)| wrong(a, value))
-            .min_by_key(|&(a, _)| p.ids()[a]);
-        if let Some((place, value)) = found {
-            let x = p.vector_at(Quantity::ReferencePosition, place);
-            return Some(Diverged {
-                particle: p.ids()[place],
-                body: run.word(Quantity::Body, 0, place) as usize,
-                position: std::array::from_fn(|i| if i < D { x[i] } else { 0.0 }),
-                field: field.name(),
-                value,
-                time: 0.0,
-                step: 0,
-                cause,
-            });
-        }
-    }
-    None
+    (most > least).then(|| run.particles().ids()[place])
 }

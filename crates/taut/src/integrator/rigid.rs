@@ -1,10 +1,12 @@
 //! Rigid bodies that move as they are told: no equation is solved for them.
 
-use super::{Diverged, Solver};
+use super::{Bounding, Criterion, Diverged, Held, Impulse, Solver};
 use crate::field::Quantity;
 use crate::formulation::State;
+use crate::kernel::{Kernel, Shape};
 use crate::math::{Tensor, Vector};
 use crate::pass::Now;
+use crate::run::{Among, Relist};
 
 /// Where a rigid body is: x = centre + R (X - centre) + displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +29,7 @@ impl Pose {
 }
 
 /// How a rigid body moves.
-pub trait Motion: Send {
+pub trait Motion: Send + Sync {
     /// The pose at a time, s.
     fn pose(&self, t: f64) -> Pose;
 }
@@ -136,6 +138,32 @@ impl Solver for Rigid {
         Ok(())
     }
 
+    fn bounding(&self) -> Bounding {
+        Bounding { criterion: Criterion::Wave, wave_speed: 0.0, speed: 0.0, acceleration: 0.0 }
+    }
+
+    fn at_bound(&self, _: &Bounding) -> Option<u32> {
+        None
+    }
+
+    fn reach(&self) -> Relist {
+        let spacing = self.volume.first().map_or(1.0, |v| v.powf(1.0 / self.dimension as f64));
+        let kernel = Kernel::new(Shape::WendlandC2, spacing, self.dimension);
+        Relist { positions: Quantity::ReferencePosition, kernel, among: Among::SameBody }
+    }
+
+    fn fields(&self) -> &'static [Quantity] {
+        &[Quantity::ReferencePosition, Quantity::Displacement, Quantity::Velocity, Quantity::Body]
+    }
+
+    fn holding(&self, _: &mut Held, _: f64) -> Impulse {
+        Impulse::default()
+    }
+
+    fn pulling(&self, _: &[u32], _: f64) -> Impulse {
+        Impulse::default()
+    }
+
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {
         let x = self.x[place];
         match field {
@@ -167,6 +195,7 @@ impl Solver for Rigid {
             density: 0.0,
             cauchy: Tensor::zero(),
             strain_energy: 0.0,
+            booked_ahead: 0.0,
         }
     }
 }

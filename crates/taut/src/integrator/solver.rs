@@ -1,10 +1,12 @@
 //! What a simulation needs of a body in time.
 
-use super::Diverged;
+use super::{Bounding, Diverged, Held, Impulse, Relax};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::math::Vector;
 use crate::pass::Now;
+use crate::run::Relist;
+use std::ops::Range;
 
 /// What there is to see of one particle, at the present time.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +32,7 @@ pub struct Seen {
 }
 
 /// Bodies that one formulation advances: one virtual call for each half of a step.
-pub trait Solver: Send {
+pub trait Solver: Send + Sync {
     /// 2 or 3.
     fn dimension(&self) -> usize;
     /// How many particles.
@@ -64,6 +66,14 @@ pub trait Solver: Send {
     fn begin(&mut self, dt: f64);
     /// The longest stable step now, s.
     fn stable_step(&self) -> f64;
+    /// What bounds that step.
+    fn bounding(&self) -> Bounding;
+    /// The particle, by id, that is at the bound: a search through all of them. `None` if all are alike.
+    fn at_bound(&self, bounding: &Bounding) -> Option<u32>;
+    /// How neighbours are found.
+    fn reach(&self) -> Relist;
+    /// The fields that its particles carry.
+    fn fields(&self) -> &'static [Quantity];
     /// The step up to where the next one can be known.
     ///
     /// # Errors
@@ -74,6 +84,16 @@ pub trait Solver: Send {
     /// # Errors
     /// If the state has left its bounds.
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
+
+    /// What holding these particles took in the step of `dt` that [`advance`](Self::advance) has just made.
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse;
+    /// What the body forces on these particles, by id, gave in it.
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse;
+
+    /// The same as something that can be brought to rest, if it can.
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        None
+    }
 
     /// A vector field of the particle stored at `place`, at the present time; components beyond the dimension are 0.
     fn read(&self, field: Quantity, place: usize) -> [f64; 3];
@@ -123,19 +143,21 @@ pub trait Solver: Send {
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;
-    /// Shows every particle, place by place: one virtual call for all of them.
-    fn show(&self, to: &mut dyn FnMut(&Seen)) {
-        for (place, &id) in self.ids().iter().enumerate() {
+    /// Shows the particles of these ids, in their order: one virtual call for all of them.
+    fn show(&self, ids: Range<usize>, to: &mut dyn FnMut(&Seen)) {
+        for id in ids {
+            let place = self.stored(id);
+            let state = self.state(place);
             to(&Seen {
-                id,
+                id: id as u32,
                 body: self.scalar(Quantity::Body, place) as u32,
                 mass: self.scalar(Quantity::Mass, place),
                 reference: self.read(Quantity::ReferencePosition, place),
                 displacement: self.read(Quantity::Displacement, place),
                 velocity: self.read(Quantity::Velocity, place),
-                dissipated: self.scalar(Quantity::Dissipated, place),
+                dissipated: self.scalar(Quantity::Dissipated, place) - state.booked_ahead,
                 external_work: self.scalar(Quantity::ExternalWork, place),
-                state: self.state(place),
+                state,
             });
         }
     }

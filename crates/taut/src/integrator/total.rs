@@ -1,12 +1,15 @@
 //! Position Verlet for a total Lagrangian body (TL section 3.4).
 
-use super::Solver;
-use super::limits::{Cause, Diverged, Limits, culprit};
+use super::diverged::{Check, culprit, not_finite};
+use super::limits::largest;
+use super::outside::{self, Midway};
+use super::relax::{self, Exchange, Relax, Unrest};
+use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::pass::Now;
-use crate::run::{Among, Relist, Run};
+use crate::run::{Among, Relist, Run, Sweeper};
 
 /// Which wave speed the time step uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -43,12 +46,28 @@ pub struct Total<const D: usize, F, R> {
     options: TotalOptions,
     limits: Limits,
     ahead: f64,
+    /// Squared wave speed at rest, m^2/s^2.
+    at_rest: f64,
+    /// Squared wave speed from which on particles are heavier; infinite for never.
+    heavier_from: f64,
+    /// Pairs one after the other, once they are wanted.
+    sweeper: Option<Sweeper>,
 }
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
     /// A body whose particles carry the fields of `F` and are set up.
     pub fn new(formulation: F, run: R, options: TotalOptions) -> Self {
-        Self { formulation, run, options, limits: Limits::default(), ahead: 0.0 }
+        let limits = Limits::default();
+        Self {
+            formulation,
+            run,
+            options,
+            limits,
+            ahead: 0.0,
+            at_rest: 0.0,
+            heavier_from: f64::INFINITY,
+            sweeper: None,
+        }
     }
 
     /// The run, to look at.
@@ -67,16 +86,19 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         if self.limits.finite && self.limits.speed < bound {
             return Ok(());
         }
-        let not_finite = |_: usize, x: f64| !x.is_finite();
-        let fast = |_: usize, x: f64| x.is_nan() || x.abs() >= bound / (D as f64).sqrt();
+        let inverted = |_: usize, x: f64| (x == f64::INFINITY).then_some(0.0);
+        // The largest component of a vector is at least its length over sqrt(D).
+        let component = bound / (D as f64).sqrt();
+        let fast = |_: usize, x: f64| (x.abs() >= component).then_some(component);
+        let check = |field, cause, beyond| Check { field, cause, beyond };
         let found = culprit(
             &self.run,
             &[
-                (Quantity::WaveSpeedSquared, Cause::Inverted, &|_, x| x == f64::INFINITY),
-                (Quantity::Velocity, Cause::NotFinite, &not_finite),
-                (Quantity::Acceleration, Cause::NotFinite, &not_finite),
-                (Quantity::WaveSpeedSquared, Cause::NotFinite, &not_finite),
-                (Quantity::Velocity, Cause::Speed, &fast),
+                check(Quantity::WaveSpeedSquared, Cause::Inverted, &inverted),
+                check(Quantity::Velocity, Cause::NotFinite, &not_finite),
+                check(Quantity::Acceleration, Cause::NotFinite, &not_finite),
+                check(Quantity::WaveSpeedSquared, Cause::NotFinite, &not_finite),
+                check(Quantity::Velocity, Cause::Speed, &fast),
             ],
         );
         match found {
@@ -88,6 +110,26 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
             Some(diverged) => Err(diverged),
             None => Ok(()),
         }
+    }
+
+    fn wave_speed(&self) -> f64 {
+        match self.options.wave_speed {
+            WaveSpeed::Stretch if self.heavier_from.is_finite() => self.at_rest.sqrt(),
+            WaveSpeed::Stretch => self.limits.wave_speed,
+            WaveSpeed::Paper => self.options.bulk_speed,
+        }
+    }
+
+    /// The two criteria of TL Eq. (33), before the Courant number: h/(c + |v|) and sqrt(h/|a|).
+    fn steps(&self) -> [f64; 2] {
+        let h = self.options.kernel.h();
+        [h / (self.wave_speed() + self.limits.speed), (h / self.limits.acceleration).sqrt()]
+    }
+
+    /// Between `advance` and `finish` displacements stand midway in the step.
+    fn midway(&self) -> Midway<'_, D> {
+        let field = |field| outside::columns(&self.run, field);
+        Midway { base: field(Quantity::ReferencePosition), way: field(Quantity::Displacement), share: 1.0 }
     }
 
     fn determinant(&self, id: u32) -> f64 {
@@ -122,14 +164,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn start(&mut self) -> Result<(), Diverged> {
-        let relist = Relist {
-            positions: Quantity::ReferencePosition,
-            kernel: self.options.kernel,
-            among: Among::SameBody,
-        };
-        if self.run.relist(&relist).is_err() {
-            let wrong = |_: usize, x: f64| !x.is_finite();
-            let found = culprit(&self.run, &[(Quantity::ReferencePosition, Cause::NotFinite, &wrong)]);
+        if self.run.relist(&self.reach()).is_err() {
+            let (field, cause) = (Quantity::ReferencePosition, Cause::NotFinite);
+            let found = culprit(&self.run, &[Check { field, cause, beyond: &not_finite }]);
             return Err(found.unwrap_or_else(Diverged::unlisted));
         }
         for i in 0..D {
@@ -137,7 +174,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         }
         self.formulation.relisted(&mut self.run);
         self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 0.0 });
-        self.check()
+        self.check()?;
+        self.at_rest = self.limits.wave_speed * self.limits.wave_speed;
+        Ok(())
     }
 
     fn begin(&mut self, dt: f64) {
@@ -146,16 +185,43 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn stable_step(&self) -> f64 {
-        let h = self.options.kernel.h();
-        let c = match self.options.wave_speed {
-            WaveSpeed::Stretch => self.limits.wave_speed,
-            WaveSpeed::Paper => self.options.bulk_speed,
+        let [wave, acceleration] = self.steps();
+        self.options.cfl * wave.min(acceleration)
+    }
+
+    fn bounding(&self) -> Bounding {
+        let [wave, acceleration] = self.steps();
+        Bounding {
+            criterion: if acceleration < wave { Criterion::Acceleration } else { Criterion::Wave },
+            wave_speed: self.wave_speed(),
+            speed: self.limits.speed,
+            acceleration: self.limits.acceleration,
+        }
+    }
+
+    fn at_bound(&self, bounding: &Bounding) -> Option<u32> {
+        let waves = self.options.wave_speed == WaveSpeed::Stretch && bounding.wave_speed >= bounding.speed;
+        let field = match bounding.criterion {
+            Criterion::Acceleration => Quantity::Acceleration,
+            _ if waves => Quantity::WaveSpeedSquared,
+            _ => Quantity::Velocity,
         };
-        self.options.cfl * (h / (c + self.limits.speed)).min((h / self.limits.acceleration).sqrt())
+        largest(&self.run, field)
+    }
+
+    fn reach(&self) -> Relist {
+        Relist { positions: Quantity::ReferencePosition, kernel: self.options.kernel, among: Among::SameBody }
+    }
+
+    fn fields(&self) -> &'static [Quantity] {
+        F::FIELDS
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {
         self.formulation.accelerate(&mut self.run, now);
+        if self.heavier_from.is_finite() {
+            relax::even_out(&mut self.run, self.heavier_from, now.dt);
+        }
         self.check()
     }
 
@@ -163,6 +229,18 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         self.formulation.rates(&mut self.run, Now { t: now.t, dt: 0.5 * (now.dt + next) });
         self.ahead = 0.5 * next;
         Ok(())
+    }
+
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse {
+        outside::holding(&self.run, (&self.midway(), dt), held)
+    }
+
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse {
+        outside::pulling(&self.run, (&self.midway(), dt), ids)
+    }
+
+    fn relax(&mut self) -> Option<&mut dyn Relax> {
+        Some(self)
     }
 
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {
@@ -193,5 +271,42 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn state(&self, place: usize) -> State {
         self.formulation.state(&self.run, place, self.ahead)
+    }
+}
+
+impl<const D: usize, F: Formulation<D>, R: Run<D>> Relax for Total<D, F, R> {
+    fn exchange(&mut self, viscosity: f64, dt: f64) {
+        // Positions were checked when the body was started.
+        let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.reach()).ok());
+        self.sweeper = sweeper.map(|mut sweeper| {
+            sweeper.sweep(&mut self.run, &Exchange { eta_dt: viscosity * dt });
+            sweeper
+        });
+    }
+
+    fn rest(&mut self) {
+        relax::rest(&mut self.run, self.heavier_from);
+    }
+
+    fn even_out(&mut self) {
+        self.heavier_from = self.at_rest;
+    }
+
+    fn pace(&mut self, factor: f64) {
+        relax::pace(&mut self.run, factor);
+    }
+
+    fn unrest(&mut self) -> Unrest {
+        let p = self.run.particles();
+        let density = p.column(Quantity::Mass, 0)[0] / p.column(Quantity::Volume, 0)[0];
+        relax::unrest(&mut self.run, self.heavier_from, density * self.at_rest)
+    }
+
+    fn extent(&self) -> f64 {
+        relax::extent(&self.run)
+    }
+
+    fn wave_speed(&self) -> f64 {
+        self.at_rest.sqrt()
     }
 }

@@ -1,7 +1,9 @@
 //! Position Verlet with dual-criteria time stepping for updated Lagrangian bodies (UL section 5).
 
-use super::Solver;
-use super::limits::{Cause, Diverged, Limits, culprit};
+use super::diverged::{Check, culprit, not_finite};
+use super::limits::largest;
+use super::outside::{self, Midway};
+use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
@@ -50,6 +52,8 @@ pub struct Updated<const D: usize, F, R> {
     /// Time left until the configuration is made anew.
     left: f64,
     rebuilds: u64,
+    /// Whether every particle had neighbours enough in the first list.
+    sociable: bool,
     order: Vec<u32>,
 }
 
@@ -67,6 +71,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             limits: Limits::default(),
             left: 0.0,
             rebuilds: 0,
+            sociable: false,
             order: Vec::new(),
         }
     }
@@ -100,12 +105,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             self.sort();
         }
         refresh_volumes(&mut self.run);
-        let o = &self.options;
-        let relist = Relist { positions: Quantity::Position, kernel: o.kernel, among: Among::All };
-        if self.run.relist(&relist).is_err() {
+        if self.run.relist(&self.reach()).is_err() {
             self.diagnose()?;
             return Err(Diverged::unlisted());
         }
+        self.count()?;
+        let o = &self.options;
         self.formulation.relisted(&mut self.run);
         self.left = match o.stepping {
             Stepping::Single => 0.0,
@@ -118,6 +123,36 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         Ok(())
     }
 
+    /// The two criteria of the acoustic step (UL Eq. 22), before the Courant number. 0.6 with c_M where the paper has 0.4 with c0:
+    /// the published step wherever that is stable (nu >= 0.3).
+    fn steps(&self) -> [f64; 2] {
+        let (o, h, v) = (&self.options, self.options.kernel.h(), self.limits.speed);
+        let shear = if o.shear_speed > 0.0 { 1.5 * h / (o.shear_speed + v) } else { f64::INFINITY };
+        [h / (o.bulk_speed + v), shear]
+    }
+
+    /// The end of a step less half of its way.
+    fn midway(&self, dt: f64) -> Midway<'_, D> {
+        let field = |field| outside::columns(&self.run, field);
+        Midway { base: field(Quantity::Position), way: field(Quantity::Velocity), share: -0.5 * dt }
+    }
+
+    /// A particle that cannot form a gradient any more has left its body; one that never could has not.
+    fn count(&mut self) -> Result<(), Diverged> {
+        let Some((place, neighbours)) = self.run.loneliest() else { return Ok(()) };
+        if self.rebuilds == 0 {
+            self.sociable = neighbours >= D;
+        }
+        if neighbours >= D || !self.sociable {
+            return Ok(());
+        }
+        Err(Diverged::of(
+            &self.run,
+            (place, Cause::Lost),
+            ("number of neighbours", neighbours as f64, D as f64),
+        ))
+    }
+
     fn check(&mut self) -> Result<(), Diverged> {
         self.limits = Limits::of_motion(&mut self.run);
         if self.limits.finite && self.limits.speed < 10.0 * self.options.bulk_speed {
@@ -128,16 +163,24 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
 
     fn diagnose(&self) -> Result<(), Diverged> {
         let rest = |a| self.run.word(Quantity::RestDensity, 0, a);
-        let bound = 10.0 * self.options.bulk_speed / (D as f64).sqrt();
-        let not_finite = |_: usize, x: f64| !x.is_finite();
+        // The largest component of a vector is at least its length over sqrt(D).
+        let component = 10.0 * self.options.bulk_speed / (D as f64).sqrt();
+        let density = |a: usize, x: f64| match x / rest(a) {
+            ratio if ratio >= 10.0 => Some(10.0 * rest(a)),
+            ratio if ratio >= 0.1 => None,
+            _ => Some(0.1 * rest(a)),
+        };
+        let far = |_: usize, x: f64| (x.is_nan() || x.abs() >= 1e150).then_some(f64::NAN);
+        let fast = |_: usize, x: f64| (x.is_nan() || x.abs() >= component).then_some(component);
+        let check = |field, cause, beyond| Check { field, cause, beyond };
         let found = culprit(
             &self.run,
             &[
-                (Quantity::Density, Cause::Density, &|a, x| !(0.1..10.0).contains(&(x / rest(a)))),
-                (Quantity::Velocity, Cause::NotFinite, &not_finite),
-                (Quantity::Acceleration, Cause::NotFinite, &not_finite),
-                (Quantity::Position, Cause::NotFinite, &|_, x| x.is_nan() || x.abs() >= 1e150),
-                (Quantity::Velocity, Cause::Speed, &|_, x| x.is_nan() || x.abs() >= bound),
+                check(Quantity::Density, Cause::Density, &density),
+                check(Quantity::Velocity, Cause::NotFinite, &not_finite),
+                check(Quantity::Acceleration, Cause::NotFinite, &not_finite),
+                check(Quantity::Position, Cause::NotFinite, &far),
+                check(Quantity::Velocity, Cause::Speed, &fast),
             ],
         );
         found.map_or(Ok(()), Err)
@@ -175,11 +218,30 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
     fn begin(&mut self, _: f64) {}
 
     fn stable_step(&self) -> f64 {
-        let (o, h) = (&self.options, self.options.kernel.h());
-        // 0.6 with c_M where the paper has 0.4 with c0: the published step wherever that is stable (nu >= 0.3).
-        let bulk = h / (o.bulk_speed + self.limits.speed);
-        let shear = 1.5 * h / (o.shear_speed + self.limits.speed);
-        o.cfl * if o.shear_speed > 0.0 { bulk.min(shear) } else { bulk }
+        let [bulk, shear] = self.steps();
+        self.options.cfl * bulk.min(shear)
+    }
+
+    fn bounding(&self) -> Bounding {
+        let (o, [bulk, shear]) = (&self.options, self.steps());
+        let (criterion, wave_speed) = match shear < bulk {
+            true => (Criterion::ShearWave, o.shear_speed),
+            false => (Criterion::Wave, o.bulk_speed),
+        };
+        let Limits { speed, acceleration, .. } = self.limits;
+        Bounding { criterion, wave_speed, speed, acceleration }
+    }
+
+    fn at_bound(&self, _: &Bounding) -> Option<u32> {
+        largest(&self.run, Quantity::Velocity)
+    }
+
+    fn reach(&self) -> Relist {
+        Relist { positions: Quantity::Position, kernel: self.options.kernel, among: Among::All }
+    }
+
+    fn fields(&self) -> &'static [Quantity] {
+        F::FIELDS
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {
@@ -194,6 +256,14 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn finish(&mut self, _: Now<f64>, _: f64) -> Result<(), Diverged> {
         Ok(())
+    }
+
+    fn holding(&self, held: &mut Held, dt: f64) -> Impulse {
+        outside::holding(&self.run, (&self.midway(dt), dt), held)
+    }
+
+    fn pulling(&self, ids: &[u32], dt: f64) -> Impulse {
+        outside::pulling(&self.run, (&self.midway(dt), dt), ids)
     }
 
     fn read(&self, field: Quantity, place: usize) -> [f64; 3] {

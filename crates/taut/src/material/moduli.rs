@@ -18,6 +18,12 @@ impl Moduli {
         Self { density, bulk: young / (3.0 * (1.0 - 2.0 * poisson)), shear: young / (2.0 * (1.0 + poisson)) }
     }
 
+    /// Young's modulus 9 K G / (3 K + G), Pa.
+    #[must_use]
+    pub fn young(&self) -> f64 {
+        9.0 * self.bulk * self.shear / (3.0 * self.bulk + self.shear)
+    }
+
     /// First Lamé constant K - 2G/3, Pa.
     #[must_use]
     pub fn lambda(&self) -> f64 {
@@ -52,6 +58,7 @@ mod tests {
         let m = Moduli::from_young(1100.0, 17e6, 0.45);
         assert!((m.bulk - 17e6 / 0.3).abs() < 1.0);
         assert!((m.poisson() - 0.45).abs() < 1e-12);
+        assert!((m.young() - 17e6).abs() < 1.0);
         assert!((m.lambda() - 17e6 * 0.45 / (1.45 * 0.1)).abs() < 1.0);
     }
 }

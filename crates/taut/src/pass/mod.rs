@@ -2,8 +2,10 @@
 //! number; who runs it, and how pairs are stored and walked, is the business of a [`Run`](crate::run::Run).
 
 mod pair;
+mod sweep;
 
 pub use pair::{ALL_WEIGHTS, Pair};
+pub use sweep::{PairSweep, Two};
 
 use crate::field::{Of, Record};
 use crate::math::Real;

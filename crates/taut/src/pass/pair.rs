@@ -18,6 +18,8 @@ pub struct Pair<S, const D: usize, const M: u8> {
     pub w: S,
     /// Unit vector from b to a.
     pub e: Vector<S, D>,
+    /// x_a - x_b in the configuration of the list, m; not masked.
+    pub x: Vector<S, D>,
 }
 
 impl<S: Real, const D: usize, const M: u8> Pair<S, D, M> {

@@ -2,9 +2,11 @@
 
 mod cpu;
 mod serial;
+mod sweeper;
 
 pub use cpu::{Cpu, Double, InstructionSet, Precision, Single};
 pub use serial::Serial;
+pub use sweeper::Sweeper;
 
 use crate::field::Quantity;
 use crate::kernel::Kernel;
@@ -35,8 +37,38 @@ pub enum Among {
     SameBody,
 }
 
+/// One number of all particles, in the precision that it is kept in.
+#[derive(Clone, Copy, Debug)]
+pub enum Numbers<'a> {
+    /// In double precision.
+    Double(&'a [f64]),
+    /// In single precision.
+    Single(&'a [f32]),
+}
+
+impl<'a> Numbers<'a> {
+    /// The numbers, if they are in double precision.
+    #[must_use]
+    pub fn double(self) -> Option<&'a [f64]> {
+        match self {
+            Self::Double(numbers) => Some(numbers),
+            Self::Single(_) => None,
+        }
+    }
+
+    /// The number of one particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(self, place: usize) -> f64 {
+        match self {
+            Self::Double(numbers) => numbers[place],
+            Self::Single(numbers) => f64::from(numbers[place]),
+        }
+    }
+}
+
 /// A back-end: it owns the particles and their pair list, and runs passes over them.
-pub trait Run<const D: usize>: Send {
+pub trait Run<const D: usize>: Send + Sync {
     /// The particles. In a single run only what is integrated in time is up to date here; [`Run::word`] always is.
     fn particles(&self) -> &Particles<D>;
 
@@ -46,6 +78,11 @@ pub trait Run<const D: usize>: Send {
     /// One number of one particle, as it is now.
     fn word(&self, field: Quantity, word: usize, place: usize) -> f64 {
         self.particles().column(field, word)[place]
+    }
+
+    /// One number of all particles, as it is now.
+    fn numbers(&self, field: Quantity, word: usize) -> Numbers<'_> {
+        Numbers::Double(self.particles().column(field, word))
     }
 
     /// Sets one number of one particle.
@@ -61,6 +98,12 @@ pub trait Run<const D: usize>: Send {
 
     /// Mean number of neighbours in the last [`Run::relist`].
     fn neighbours(&self) -> f64;
+
+    /// The place of the particle with the fewest neighbours in the last [`Run::relist`], and how many those are; `None` if all
+    /// stand on a lattice, which nobody leaves, or nobody counts.
+    fn loneliest(&self) -> Option<(usize, usize)> {
+        None
+    }
 
     /// For every particle: `sum` over its neighbours, and what follows from it.
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>);

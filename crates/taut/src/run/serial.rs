@@ -77,7 +77,7 @@ impl<const D: usize> Run<D> for Serial<D> {
                 // Particles on top of each other have no direction and no force.
                 let e: Vector<f64, D> = x_ab.times(if r > 0.0 { 1.0 / r } else { 0.0 });
                 let w = if r > 0.0 { slope / r } else { 0.0 };
-                self.pairs.push(Pair { grad_w: e.times(slope), w, e });
+                self.pairs.push(Pair { grad_w: e.times(slope), w, e, x: x_ab });
             }
         }
         Ok(())
@@ -85,6 +85,11 @@ impl<const D: usize> Run<D> for Serial<D> {
 
     fn neighbours(&self) -> f64 {
         self.adjacency.mean()
+    }
+
+    fn loneliest(&self) -> Option<(usize, usize)> {
+        let counts = (0..self.particles.len()).map(|a| (a, self.adjacency.of(a).len()));
+        counts.min_by_key(|&(_, count)| count)
     }
 
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {

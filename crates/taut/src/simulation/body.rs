@@ -1,12 +1,12 @@
 //! Bodies by name: the match over formulations, materials and dimensions. Compiled here, once.
 
 use super::Solver;
-use super::particles::{Point, total, updated};
+use super::particles::{Point, spacing, total, updated};
 use crate::formulation::Formulation;
-use crate::formulation::total::{HourglassFree, Nested};
+use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{self as updated_forms, Hypoelastic, NonHourglass};
 use crate::integrator::{TotalOptions, UpdatedOptions};
-use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
+use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff};
 use crate::run::Cpu;
 
 /// Points of two or three dimensions.
@@ -58,12 +58,24 @@ impl Law {
 }
 
 /// A total Lagrangian formulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TotalForm {
     /// `tl-hourglass-free`.
-    HourglassFree,
+    HourglassFree(Calibration),
     /// `tl-nested`.
     Nested,
+    /// `tl-ganzenmueller` with this alpha.
+    Ganzenmueller(f64),
+}
+
+/// The factors of the hourglass-free force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Calibration {
+    /// zeta = 1.07, as in the paper.
+    #[default]
+    Paper,
+    /// Such that the moduli are exact inside of a lattice.
+    Lattice,
 }
 
 /// An updated Lagrangian formulation.
@@ -104,16 +116,12 @@ pub fn total_body(
     options: TotalOptions,
     numbers: Numbers,
 ) -> Option<Box<dyn Solver>> {
-    let h = options.kernel.h();
     let body = TotalBody { points, moduli: law.moduli(), options, numbers };
-    Some(match (form, law) {
-        (TotalForm::HourglassFree, Law::NeoHookean(m)) => body.with(HourglassFree::new(m, h)),
-        (TotalForm::HourglassFree, Law::NeoHookeanLog(m)) => body.with(HourglassFree::new(m, h)),
-        (TotalForm::HourglassFree, Law::SaintVenantKirchhoff(_)) => return None,
-        (TotalForm::Nested, Law::NeoHookean(m)) => body.with(Nested::new(m, h)),
-        (TotalForm::Nested, Law::NeoHookeanLog(m)) => body.with(Nested::new(m, h)),
-        (TotalForm::Nested, Law::SaintVenantKirchhoff(m)) => body.with(Nested::new(m, h)),
-    })
+    match law {
+        Law::NeoHookean(m) => body.free(form, m).or_else(|| body.nested(form, m)),
+        Law::NeoHookeanLog(m) => body.free(form, m).or_else(|| body.nested(form, m)),
+        Law::SaintVenantKirchhoff(m) => body.nested(form, m),
+    }
 }
 
 struct TotalBody<'a> {
@@ -124,6 +132,29 @@ struct TotalBody<'a> {
 }
 
 impl TotalBody<'_> {
+    /// In the hourglass-free form, if that is wanted.
+    fn free<M: PairShear>(&self, form: TotalForm, material: M) -> Option<Box<dyn Solver>> {
+        let TotalForm::HourglassFree(calibration) = form else { return None };
+        let kernel = &self.options.kernel;
+        Some(self.with(match calibration {
+            Calibration::Paper => HourglassFree::new(material, kernel.h()),
+            Calibration::Lattice => match self.points {
+                Points::Two(p) => HourglassFree::calibrated::<2>(material, kernel, spacing(p)),
+                Points::Three(p) => HourglassFree::calibrated::<3>(material, kernel, spacing(p)),
+            },
+        }))
+    }
+
+    /// In one of the nested forms, if one is wanted.
+    fn nested<M: Hyperelastic>(&self, form: TotalForm, material: M) -> Option<Box<dyn Solver>> {
+        let kernel = self.options.kernel;
+        match form {
+            TotalForm::HourglassFree(_) => None,
+            TotalForm::Nested => Some(self.with(Nested::new(material, kernel.h()))),
+            TotalForm::Ganzenmueller(alpha) => Some(self.with(Ganzenmueller::new(material, kernel, alpha))),
+        }
+    }
+
     fn with<F: Formulation<2> + Formulation<3> + 'static>(&self, formulation: F) -> Box<dyn Solver> {
         match self.points {
             Points::Two(points) => self.of::<2, F>(points, formulation),

@@ -1,11 +1,26 @@
 //! A simulation: bodies that share one clock.
 
+mod audit;
+// Unit tests have no use for all combinations of formulation, material, dimension and numbers, which take minutes to compile.
+#[cfg(not(test))]
 mod body;
+mod damping;
+mod guard;
+mod history;
 mod particles;
+mod quasi_static;
 mod snapshot;
 
-pub use body::{InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies};
+pub use audit::{Audit, Grip};
+#[cfg(not(test))]
+pub use body::{
+    Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
+};
+pub use damping::{Damping, Kinetic, Splitting};
+pub use guard::{COLLAPSE, GAIN, Guard};
+pub use history::{History, Step};
 pub use particles::{Point, total, updated};
+pub use quasi_static::{Balance, Increment, Increments, QuasiStatic};
 pub use snapshot::{Snapshot, Totals};
 
 pub use crate::integrator::{Motion, Pose, Rigid, Seen, Solver};
@@ -13,11 +28,15 @@ pub use crate::integrator::{Motion, Pose, Rigid, Seen, Solver};
 use crate::contact::Contact;
 use crate::integrator::Diverged;
 use crate::pass::Now;
+use quasi_static::Load;
 
 /// Something outside that acts on the bodies before every step: prescribed motion, body force in time.
 pub trait Drive: Send {
     /// Sets fields for the step that begins at `now.t` and lasts `now.dt`.
     fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>);
+
+    /// Calls `mark(solver, id)` for every particle whose body force it changes.
+    fn pulls(&self, _mark: &mut dyn FnMut(usize, u32)) {}
 }
 
 /// Bodies, what drives them, and the clock.
@@ -25,6 +44,10 @@ pub struct Simulation {
     solvers: Vec<Box<dyn Solver>>,
     drives: Vec<Box<dyn Drive>>,
     contact: Option<Contact>,
+    audit: Audit,
+    guard: Guard,
+    history: History,
+    damping: Option<Box<dyn Damping>>,
     time: f64,
     dt: f64,
     steps: u64,
@@ -44,7 +67,9 @@ impl Simulation {
     /// A simulation that has yet to [`begin`](Self::begin).
     #[must_use]
     pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
-        Self { solvers, drives, contact: None, time: 0.0, dt: 0.0, steps: 0 }
+        let (audit, guard, history) = (Audit::default(), Guard::default(), History::new());
+        let (damping, contact) = (None, None);
+        Self { solvers, drives, damping, contact, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
     }
 
     /// The same with bodies that touch.
@@ -53,29 +78,57 @@ impl Simulation {
         Self { contact, ..self }
     }
 
+    /// The same with its motion damped.
+    #[must_use]
+    pub fn damped(self, damping: Option<Box<dyn Damping>>) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// Names the constraints whose reactions are wanted one by one, before the start.
+    pub fn hold(&mut self, grips: Vec<Grip>) {
+        self.audit.name(grips);
+    }
+
     /// Prepares the first step; once.
     ///
     /// # Errors
     /// If the initial state is not finite. It can be looked at all the same.
     pub fn begin(&mut self) -> Result<(), Diverged> {
+        let mut first = 0;
         for solver in &mut self.solvers {
-            solver.start()?;
+            solver.start().map_err(|diverged| diverged.after(first))?;
+            first += solver.len() as u32;
         }
         if let Some(contact) = &mut self.contact {
             contact.begin(&self.solvers)?;
         }
-        self.dt = self.stable_step();
+        self.audit.start(&self.solvers, &self.drives, self.contact.is_some());
+        let (at_bound, dt) = self.stable_step();
+        self.dt = dt;
+        self.guard = Guard::start(&self.solvers, dt);
+        self.remember((at_bound, dt));
         for solver in &mut self.solvers {
             solver.begin(self.dt);
         }
         Ok(())
     }
 
-    /// Stiffnesses of bodies and contact add up, so squares of frequencies do at most: 1/dt^2 = 1/dt_bodies^2 + 1/dt_contact^2.
-    fn stable_step(&self) -> f64 {
-        let bodies = self.solvers.iter().map(|s| s.stable_step()).fold(f64::INFINITY, f64::min);
+    /// The solver that asks for the shortest step, and that step. Stiffnesses of bodies and contact add up, so squares of frequencies do at
+    /// most: 1/dt^2 = 1/dt_bodies^2 + 1/dt_contact^2.
+    fn stable_step(&self) -> (usize, f64) {
+        let steps = self.solvers.iter().map(|s| s.stable_step()).enumerate();
+        let (solver, bodies) =
+            steps.fold((0, f64::INFINITY), |least, step| if step.1 < least.1 { step } else { least });
         let contact = self.contact.as_ref().map_or(f64::INFINITY, Contact::stable_step);
-        bodies / (1.0 + (bodies / contact).powi(2)).sqrt()
+        (solver, bodies / (1.0 + (bodies / contact).powi(2)).sqrt())
+    }
+
+    /// Takes down the step that comes next, which a solver asked for.
+    fn remember(&mut self, (solver, dt): (usize, f64)) {
+        let Some(at_bound) = self.solvers.get(solver) else { return };
+        let bounding = at_bound.bounding();
+        let step = Step { number: self.steps + 1, time: self.time, dt, solver, bounding, particle: None };
+        self.history.note(step, at_bound.as_ref());
     }
 
     /// One step of all bodies.
@@ -83,32 +136,88 @@ impl Simulation {
     /// # Errors
     /// If a body has left its bounds; names particle, field, time and the likely cause.
     pub fn step(&mut self) -> Result<(), Diverged> {
-        let now = Now { t: self.time, dt: self.dt };
-        self.halves(now).map_err(|diverged| Diverged {
-            time: now.t + now.dt,
+        self.step_with(None, None)
+    }
+
+    /// One step in which the load has a clock of its own, which is then that of the simulation.
+    fn step_with(&mut self, load: Option<Load>, kinetic: Option<&mut Kinetic>) -> Result<(), Diverged> {
+        let (before, dt) = (self.time, self.dt);
+        self.halves(Now { t: before, dt }, load, kinetic).map_err(|diverged| Diverged {
+            time: load.map_or(before + dt, |_| before),
             step: self.steps + 1,
             ..diverged
         })
     }
 
-    fn halves(&mut self, now: Now<f64>) -> Result<(), Diverged> {
+    fn drive(&mut self, now: Now<f64>) {
         for drive in &mut self.drives {
             drive.apply(&mut self.solvers, now);
         }
+    }
+
+    /// Moves the load on by what grips may move in a step of `dt`; what that is on the load's clock, s.
+    fn drive_slowly(&mut self, dt: f64, load: Load) -> f64 {
+        let mut pace = load.most.min(load.left / dt);
+        // A clock that stands still has no differences: they are taken over a moment of the load and multiplied by nothing.
+        let moment = |pace: f64| if pace > 0.0 { pace * dt } else { 1e-9 * self.time.max(dt) };
+        let now = Now { t: self.time, dt: moment(pace) };
+        self.drive(now);
+        let mut bodies = self.solvers.iter_mut().filter_map(|solver| solver.relax());
+        let driven = bodies.by_ref().map(|body| body.unrest().driven).fold(0.0, f64::max);
+        if pace * driven > load.fastest {
+            pace = load.fastest / driven;
+            self.drive(Now { t: self.time, dt: pace * dt });
+        }
+        if driven > 0.0 {
+            self.solvers.iter_mut().filter_map(|solver| solver.relax()).for_each(|body| body.pace(pace));
+        }
+        pace * dt
+    }
+
+    fn halves(
+        &mut self,
+        now: Now<f64>,
+        load: Option<Load>,
+        kinetic: Option<&mut Kinetic>,
+    ) -> Result<(), Diverged> {
+        let passed = match load {
+            None => {
+                self.drive(now);
+                now.dt
+            }
+            Some(load) => self.drive_slowly(now.dt, load),
+        };
         if let Some(contact) = &mut self.contact {
             contact.apply(&mut self.solvers, now)?;
         }
-        for solver in &mut self.solvers {
-            solver.advance(now)?;
+        let mut first = 0;
+        for (index, solver) in self.solvers.iter_mut().enumerate() {
+            solver.advance(now).map_err(|diverged| diverged.after(first))?;
+            self.audit.advanced(index, solver.as_ref(), now.dt);
+            first += solver.len() as u32;
         }
-        let next = self.stable_step();
+        if let Some(damping) = &mut self.damping {
+            damping.damp(&mut self.solvers, now, self.steps);
+        }
+        if let Some(kinetic) = kinetic {
+            kinetic.damp(&mut self.solvers, now, self.steps);
+        }
+        let (at_bound, next) = self.stable_step();
+        self.guard.step(&self.solvers, (at_bound, next))?;
         for solver in &mut self.solvers {
             solver.finish(now, next)?;
         }
-        self.time += now.dt;
+        self.time =
+            load.filter(|load| passed >= load.left).map_or(self.time + passed, |load| self.time + load.left);
         self.steps += 1;
         self.dt = next;
-        Ok(())
+        self.remember((at_bound, next));
+        // Masses that are scaled, as when loads have a clock of their own, keep another energy.
+        if load.is_some() {
+            Ok(())
+        } else {
+            self.guard.look(self.steps, &self.solvers, self.contact.as_ref())
+        }
     }
 
     /// What bodies do to each other, if they touch.
@@ -126,6 +235,18 @@ impl Simulation {
     #[must_use]
     pub fn solvers(&self) -> &[Box<dyn Solver>] {
         &self.solvers
+    }
+
+    /// The steps that were taken last, and the one that comes next.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// What has come from outside.
+    #[must_use]
+    pub fn audit(&self) -> &Audit {
+        &self.audit
     }
 
     /// Time, s.

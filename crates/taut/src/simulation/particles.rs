@@ -56,25 +56,25 @@ fn particles<const D: usize>(
     p
 }
 
-/// The spacing of particles, roughly: of the first, if it were a square or cube, m.
-fn spacing<const D: usize>(p: &Particles<D>) -> f64 {
-    p.column(Quantity::Volume, 0).first().map_or(0.0, |v| v.powf(1.0 / D as f64))
+/// The spacing of points, roughly: of the first, if it were a square or cube, m.
+pub(super) fn spacing<const D: usize>(points: &[Point<D>]) -> f64 {
+    points.first().map_or(0.0, |p| p.volume.powf(1.0 / D as f64))
 }
 
 /// Puts particles in the order in which they are best stored; ids stay those of the points.
-fn sort<const D: usize>(p: &mut Particles<D>) {
+fn sort<const D: usize>(p: &mut Particles<D>, spacing: f64) {
     let mut order = Vec::new();
     // Positions that are not numbers are reported when the run starts.
-    if storage_order(p.vector(Quantity::ReferencePosition), spacing(p), &mut order).is_ok() {
+    if storage_order(p.vector(Quantity::ReferencePosition), spacing, &mut order).is_ok() {
         p.reorder(&order);
     }
 }
 
 /// Puts particles that stand on a lattice in rows along its longest axis, others as [`sort`].
-fn sort_rows<const D: usize>(p: &mut Particles<D>) {
-    match Lattice::detect(p.vector(Quantity::ReferencePosition), spacing(p)) {
+fn sort_rows<const D: usize>(p: &mut Particles<D>, spacing: f64) {
+    match Lattice::detect(p.vector(Quantity::ReferencePosition), spacing) {
         Ok(Some(lattice)) => p.reorder(&lattice.rows()),
-        _ => sort(p),
+        _ => sort(p, spacing),
     }
 }
 
@@ -86,7 +86,7 @@ pub fn total<const D: usize, F: Formulation<D>, R: Run<D>>(
     run: impl FnOnce(Particles<D>) -> R,
 ) -> Total<D, F, R> {
     let mut p = particles(points, F::FIELDS, |_| moduli);
-    sort_rows(&mut p);
+    sort_rows(&mut p, spacing(points));
     Total::new(formulation, run(p), options)
 }
 
@@ -106,6 +106,6 @@ pub fn updated<const D: usize, F: Formulation<D>, R: Run<D>>(
         p.column_mut(Quantity::SoundSpeed, 0)[i] = m.sound_speed();
         p.column_mut(Quantity::ShearModulus, 0)[i] = m.shear;
     }
-    sort(&mut p);
+    sort(&mut p, spacing(points));
     Updated::new(formulation, run(p), options)
 }

@@ -64,6 +64,16 @@ fn damped_nested_plate_closes() {
     assert!(end.dissipated > 0.005 * (end.kinetic + end.strain), "{end:?}");
 }
 
+/// The energy of Ganzenmueller's control is counted by the work done against it, so it closes as the nested form does.
+#[test]
+fn damped_controlled_plate_closes() {
+    let (setup, _) = set_up();
+    let (low, high, end) = bounds(total(setup.ganzenmueller(2)), ledger);
+    assert!(low > 1.0 - 1e-3 && high < 1.0 + 1e-3, "{low} {high}");
+    let nested = bounds(total(setup.total_nested(2)), ledger).2;
+    assert!(end.strain > 0.0 && end.strain != nested.strain, "{end:?}");
+}
+
 /// Operators of force and strain are not adjoint at surfaces: no conservation, but bounds (0.974 at ten rows in trials, 0.906
 /// at these six; never above 1.02).
 #[test]

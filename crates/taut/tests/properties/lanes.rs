@@ -91,7 +91,7 @@ fn on_lattices() {
     let mut space = stirred(block([9, 7, 6], DP));
     plane.retain(|p| (p.x[0] - 12.5 * DP).hypot(p.x[1] - 6.5 * DP) > 2.2 * DP);
     space.retain(|p| (p.x[0] - 6.5 * DP).hypot(p.x[1] - 3.5 * DP) > 1.2 * DP);
-    for form in [Form::HourglassFree, Form::TotalNested] {
+    for form in [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller] {
         lanes_equal_serial(form, &plane, ROUNDING);
         lanes_equal_serial(form, &space, ROUNDING);
     }

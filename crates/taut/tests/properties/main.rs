@@ -6,9 +6,12 @@ mod common;
 
 mod constraints;
 mod contact;
+mod damping;
 mod divergence;
 mod energy;
+mod impulses;
 mod lanes;
+mod moduli;
 mod momentum;
 mod patch;
 mod plane;

@@ -64,15 +64,18 @@ fn linear_momentum_is_exact_in_every_formulation() {
     }
 }
 
-/// With B in force and strain, the torque is the antisymmetric part of sum_a V_a P_a F_a^T = tau, which has none; position
+/// With B in force and strain, the torque is the antisymmetric part of sum_a V_a P_a F_a^T = tau, which has none, and the forces of Ganzenmueller's control are along the pairs; position
 /// Verlet keeps what its forces keep.
 #[test]
-fn angular_momentum_is_exact_in_the_total_nested_form() {
+fn angular_momentum_is_exact_in_the_total_nested_forms() {
     let (plane, space) = stirred();
-    for drift in
-        [free(Form::TotalNested, &plane, Stepping::Dual).1, free(Form::TotalNested, &space, Stepping::Dual).1]
-    {
-        assert!(drift < 4.0 * ROUNDING, "{drift:e}");
+    // Listed distances are 2^-30 of the support (2.3 dp) off, particles 5 dp and more from the origin: so much torque goes with forces
+    // that change a velocity by less than its own size in a step.
+    let placed = STEPS as f64 * 9.32e-10 * 2.3 / 5.0;
+    for (form, bound) in [(Form::TotalNested, 4.0 * ROUNDING), (Form::Ganzenmueller, placed)] {
+        for drift in [free(form, &plane, Stepping::Dual).1, free(form, &space, Stepping::Dual).1] {
+            assert!(drift < bound, "{form:?}: {drift:e}");
+        }
     }
 }
 

@@ -107,6 +107,8 @@ fn a_homogeneous_deformation_is_in_balance_inside() {
     stretched(setup.total_nested(2), [12, 11]);
     stretched(setup.hourglass_free(3), [10, 10, 9]);
     stretched(setup.total_nested(3), [10, 10, 9]);
+    stretched(setup.ganzenmueller(2), [12, 11]);
+    stretched(setup.ganzenmueller(3), [10, 10, 9]);
 }
 
 /// Density and shear stress the same everywhere: balance inside, traction at the surface.

@@ -70,6 +70,8 @@ fn turned_in_every_way<const D: usize>(n: [usize; D]) {
         turned(HourglassFree::new(log, h), &points, ("hourglass-free, log", tolerance));
         // The nested form has no stress at all, so that the rounding of its weights does not matter.
         turned(setup.total_nested(D), &points, ("nested", ROUNDING));
+        // The control compares F with distances, of which those of a list are on a grid.
+        turned(setup.ganzenmueller(D), &points, ("ganzenmueller", tolerance));
     }
 }
 

@@ -73,6 +73,11 @@ fn total_nested_in_space() {
 }
 
 #[test]
+fn ganzenmueller_in_space() {
+    total(Setup::new(DP).ganzenmueller(3));
+}
+
+#[test]
 fn non_hourglass_in_the_plane() {
     updated(Setup::new(DP).non_hourglass(2));
 }

@@ -89,6 +89,47 @@ fn blind_and_restoring<const D: usize>(n: [usize; D], modes: &[[bool; D]], round
     }
 }
 
+/// Ganzenmueller's control: rho0 a = -alpha E sum_b W V_b / R^2 (u_ab . x_ab) x_ab / |x_ab|^2 over the neighbours that move against the particle,
+/// x_ab = X_ab + u_ab; by hand, over the lattice.
+fn control<const D: usize>((axes, along): ([bool; D], usize)) -> Vector<f64, D> {
+    let (setup, side) = (Setup::new(DP), 7_usize);
+    let kernel = setup.total_kernel(D);
+    let mut sum = Vector::zero();
+    for k in 0..side.pow(D as u32) {
+        let n: [f64; D] = std::array::from_fn(|i| (k / side.pow(i as u32) % side) as f64 - 3.0);
+        let r2 = n.iter().map(|c| c * c).sum::<f64>() * DP * DP;
+        if (0..D).filter(|&i| axes[i]).map(|i| n[i]).sum::<f64>().rem_euclid(2.0) == 1.0 {
+            let u: Vector<f64, D> = Vector::from_fn(|i| if i == along { 2.0 * AMPLITUDE * DP } else { 0.0 });
+            let x = u - Vector::from_fn(|i| n[i] * DP);
+            let weight = kernel.w(r2.sqrt()) * DP.powi(D as i32) / r2;
+            sum = sum.plus(-10.0 * setup.moduli.young() * weight * u.dot(x) / x.norm_squared(), x);
+        }
+    }
+    sum.times(1.0 / setup.moduli.density)
+}
+
+/// Of a particle that moves along +, and against the mode.
+fn controlled<const D: usize>(n: [usize; D], modes: &[[bool; D]]) {
+    let setup = Setup::new(DP);
+    for (axes, along) in modes.iter().flat_map(|&axes| (0..D).map(move |along| (axes, along))) {
+        let expected = control((axes, along));
+        assert!(expected[along] < -0.1 * setup.acceleration() * AMPLITUDE, "{expected:?}");
+        let found = pushed(setup.ganzenmueller(D), n, (axes, along));
+        let up = found.iter().filter(|(x, _)| inner(*x, n) && sign(*x, axes) > 0.0);
+        assert!(up.clone().count() >= 2);
+        for (_, a) in up {
+            let error = (*a - expected).norm_squared().sqrt();
+            assert!(error < ROUNDING * setup.acceleration(), "{axes:?} {along}: {a:?} for {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn the_control_pushes_back() {
+    controlled([12, 11], &[[true, false], [false, true], [true, true]]);
+    controlled([10, 10, 10], &[[true, false, false], [true, true, false], [true, true, true]]);
+}
+
 #[test]
 fn a_single_row() {
     blind_and_restoring([16, 1], &[[true, false]], LISTED);

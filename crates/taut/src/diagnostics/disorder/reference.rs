@@ -109,6 +109,12 @@ impl<const D: usize> Reference<D> {
         })
     }
 
+    /// The particle with the largest zigzag of the state that was measured last; `None` if none has a full nearest shell.
+    pub fn most_zigzag(&self) -> Option<usize> {
+        let counted = (0..self.particles()).filter(|&i| self.has_full_shell(i));
+        counted.max_by(|&i, &j| self.room.zigzag[i].total_cmp(&self.room.zigzag[j]))
+    }
+
     /// Writes the zigzag amplitude of every particle at `x` into `out`, in spacings; 0 for particles without a
     /// full nearest shell.
     ///

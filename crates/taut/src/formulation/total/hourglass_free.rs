@@ -1,11 +1,13 @@
 //! The hourglass-free formulation, `tl-hourglass-free` (TL section 3.3).
 
+use super::calibration::lattice_moment;
 use super::motion::{Force, Kick, Rate, Stress, Stretch};
 use super::reference::MomentSum;
 use super::{FIELDS, Solid};
 use crate::correction::Invert;
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
+use crate::kernel::Kernel;
 use crate::material::PairShear;
 use crate::math::{Real, Tensor};
 use crate::pass::{Now, Pair, PairSum};
@@ -24,13 +26,27 @@ pub struct HourglassFree<M> {
     pub solid: Solid<M>,
     /// The factor of Eq. (27).
     pub zeta: f64,
+    /// Factor of the whole force; 1 in the paper.
+    pub gain: f64,
 }
 
 impl<M: PairShear> HourglassFree<M> {
     /// With the paper's zeta = 1.07 and damping, for smoothing length `h`.
     #[must_use]
     pub fn new(material: M, h: f64) -> Self {
-        Self { solid: Solid::new(material, h), zeta: 1.07 }
+        Self { solid: Solid::new(material, h), zeta: 1.07, gain: 1.0 }
+    }
+
+    /// With the moduli of the material exact inside of a lattice, where kernel sums miss by M = sum X_ab^2 |W'|/r V_b / d: zeta = 1, and the
+    /// whole force times 1/M. (With the paper's zeta long waves feel G zeta M and K M.) The balance at rest does not
+    /// change.
+    #[must_use]
+    pub fn calibrated<const D: usize>(material: M, kernel: &Kernel, spacing: f64) -> Self {
+        Self {
+            zeta: 1.0,
+            gain: 1.0 / lattice_moment::<D>(kernel, spacing),
+            ..Self::new(material, kernel.h())
+        }
     }
 }
 
@@ -90,7 +106,7 @@ impl<M: PairShear, const D: usize> Formulation<D> for HourglassFree<M> {
     }
 
     fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        run.pairs(&Momentum, &Kick { density: self.solid.material.moduli().density }, now);
+        run.pairs(&Momentum, &Kick { per_density: self.gain / self.solid.material.moduli().density }, now);
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {

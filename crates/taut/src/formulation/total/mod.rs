@@ -1,10 +1,13 @@
 //! Total Lagrangian formulations: the kernel is evaluated once, in the reference configuration.
 
+mod calibration;
+mod ganzenmueller;
 mod hourglass_free;
 mod motion;
 mod nested;
 mod reference;
 
+pub use ganzenmueller::Ganzenmueller;
 pub use hourglass_free::HourglassFree;
 pub use motion::Stress;
 pub use nested::Nested;
@@ -36,6 +39,17 @@ pub(crate) const FIELDS: &[Quantity] = &[
     Quantity::Dissipated,
     Quantity::ExternalWork,
 ];
+
+/// Fields of a body with an hourglass control: those of every body, and the energy that the control stores.
+pub(crate) const CONTROLLED: [Quantity; FIELDS.len() + 1] = {
+    let mut all = [Quantity::ShearWork; FIELDS.len() + 1];
+    let mut i = 0;
+    while i < FIELDS.len() {
+        all[i] = FIELDS[i];
+        i += 1;
+    }
+    all
+};
 
 /// A solid: a material and its Kelvin-Voigt damper.
 #[derive(Clone, Copy, Debug)]
@@ -69,16 +83,17 @@ impl<M: Hyperelastic> Solid<M> {
     /// State of a stored particle.
     pub(crate) fn state<const D: usize>(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
         let word = |field, k| run.word(field, k, place);
-        let f: Tensor<f64, D> = Tensor::from_fn(|i, j| {
-            let k = i * D + j;
-            word(Quantity::DeformationGradient, k) - ahead * word(Quantity::DeformationRate, k)
-        });
+        let tensor = |field| Tensor::<f64, D>::from_fn(|i, j| word(field, i * D + j));
+        let (later, rate) = (tensor(Quantity::DeformationGradient), tensor(Quantity::DeformationRate));
+        let f = later.plus(-ahead, rate);
+        let power = self.damping(later, rate).mul(later.inverse().transpose()).double_dot(rate);
         let j = f.det();
         State {
             deformation: Some(f.lift(1.0)),
             density: self.material.moduli().density / j,
             cauchy: self.material.kirchhoff(f).times(1.0 / j),
             strain_energy: self.material.energy(f) * word(Quantity::Volume, 0),
+            booked_ahead: if ahead > 0.0 { ahead * power * word(Quantity::Volume, 0) } else { 0.0 },
         }
     }
 }

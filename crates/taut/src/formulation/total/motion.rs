@@ -32,8 +32,8 @@ record! {
 
 /// v += dt (f / rho0 + b), then constraints (TL Eq. 31).
 pub struct Kick {
-    /// Density at rest, kg/m^3.
-    pub density: f64,
+    /// 1 / rho0, or a calibrated multiple of it, m^3/kg.
+    pub per_density: f64,
 }
 
 impl<const D: usize> Update<D> for Kick {
@@ -44,7 +44,7 @@ impl<const D: usize> Update<D> for Kick {
     #[inline(always)]
     fn at<S: Real>(&self, sum: &Force<S, D>, a: &Inert<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
         let mover = Mover { v: a.v, m: a.m, b: a.b, free: a.free, given: a.given };
-        let kicked = mover.kick(sum.f.times(S::of(1.0 / self.density)), now);
+        let kicked = mover.kick(sum.f.times(S::of(self.per_density)), now);
         Moved { v: kicked.v, a: kicked.a, work: a.work + kicked.external_work }
     }
 }
@@ -75,6 +75,11 @@ pub trait Stress<const D: usize>: Send + Sync {
     type Material: Hyperelastic;
     /// The solid.
     fn solid(&self) -> &Solid<Self::Material>;
+    /// Upper bound of rho0 c^2, Pa, that the time step has to obey.
+    #[inline(always)]
+    fn stiffness<S: Real>(&self, f: Tensor<S, D>) -> S {
+        self.solid().material.stiffness(f)
+    }
     /// Stress handed to neighbours, and stiffness of the pair force, from F, damping stress and B.
     fn hand_over<S: Real>(
         &self,
@@ -103,7 +108,7 @@ impl<F: Stress<D>, const D: usize> Update<D> for Stretch<'_, F> {
         let inverse = f.inverse();
         // Power of the damper, tau_d F^-T : dF, per reference volume.
         let power = damping.mul(inverse.transpose()).double_dot(rate);
-        let c2 = solid.material.stiffness(f) * S::of(1.0 / solid.material.moduli().density);
+        let c2 = self.0.stiffness(f) * S::of(1.0 / solid.material.moduli().density);
         // An inverted particle has no wave speed: infinite, so that the step sees it at once. One whose F is
         // not a number has none either, but that is another cause: NaN stays NaN.
         let inverted = f.det().lt(S::of(f64::MIN_POSITIVE));

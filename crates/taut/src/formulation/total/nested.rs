@@ -82,7 +82,7 @@ impl<M: Hyperelastic, const D: usize> Formulation<D> for Nested<M> {
     }
 
     fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        run.pairs(&Momentum, &Kick { density: self.solid.material.moduli().density }, now);
+        run.pairs(&Momentum, &Kick { per_density: 1.0 / self.solid.material.moduli().density }, now);
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {

@@ -48,6 +48,8 @@ pub struct PairChunk<E> {
     pub over_r: Lines<f32>,
     /// Pairs, without the fill.
     pub pairs: u64,
+    /// A particle with the fewest neighbours, and how many.
+    pub loneliest: (u32, u32),
     /// Squared distances of the neighbours of one particle while they are found, m^2.
     pub r2: Vec<f64>,
 }
@@ -55,7 +57,7 @@ pub struct PairChunk<E> {
 impl<E> Default for PairChunk<E> {
     fn default() -> Self {
         let (ids, w, over_r) = (Lines::default(), Lines::default(), Lines::default());
-        Self { start: Vec::new(), ids, w, over_r, pairs: 0, r2: Vec::new() }
+        Self { start: Vec::new(), ids, w, over_r, pairs: 0, loneliest: (0, u32::MAX), r2: Vec::new() }
     }
 }
 
@@ -128,6 +130,12 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
         self.chunks.iter().map(|chunk| chunk.pairs).sum()
     }
 
+    /// The first particle with the fewest neighbours, and how many.
+    pub fn loneliest(&self) -> Option<(usize, usize)> {
+        let fewest = self.chunks.iter().map(|chunk| chunk.loneliest).min_by_key(|&(_, count)| count);
+        fewest.map(|(a, count)| (a as usize, count as usize))
+    }
+
     /// The coordinates of a particle on the fine grid, from the numbers that hold them.
     #[inline(always)]
     pub fn coordinates(place: &[E]) -> [u32; D] {
@@ -192,6 +200,6 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
             let steps = place[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
             x.0[axis] = steps * unit;
         }
-        Pair { grad_w: x.times(w), w, e: x.times(over_r) }
+        Pair { grad_w: x.times(w), w, e: x.times(over_r), x }
     }
 }

@@ -15,7 +15,7 @@ mod walk;
 
 pub use kit::{Double, InstructionSet, Precision, Single};
 
-use super::{Among, Relist, Run};
+use super::{Among, Numbers, Relist, Run};
 use crate::field::{Quantity, Record};
 use crate::neighbours::{CellGrid, Lattice, SearchError};
 use crate::particles::Particles;
@@ -212,6 +212,10 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
         self.store.word(field, word, place)
     }
 
+    fn numbers(&self, field: Quantity, word: usize) -> Numbers<'_> {
+        self.store.numbers(field, word)
+    }
+
     fn set_word(&mut self, field: Quantity, word: usize, (place, value): (usize, f64)) {
         self.homes.changed(field);
         self.store.set_word(field, word, (place, value));
@@ -230,6 +234,11 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
     fn neighbours(&self) -> f64 {
         let pairs = self.stencil.as_ref().map_or_else(|| self.list.pairs(), Stencil::pairs);
         pairs as f64 / self.len().max(1) as f64
+    }
+
+    fn loneliest(&self) -> Option<(usize, usize)> {
+        let listed = self.stencil.is_none();
+        self.list.loneliest().filter(|_| listed)
     }
 
     fn pairs<S: PairSum<D>, U: Update<D, Sum = S::Adds>>(&mut self, sum: &S, then: &U, now: Now<f64>) {

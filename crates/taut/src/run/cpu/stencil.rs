@@ -25,6 +25,7 @@ struct Code<const D: usize> {
     grad_w: [f64; D],
     w: f64,
     e: [f64; D],
+    x: [f64; D],
 }
 
 /// Neighbours of a block in one cell of the stencil.
@@ -128,7 +129,8 @@ impl<const D: usize> Stencil<D> {
             if length > 0.0 && r < kernel.support() {
                 let e = e.times(1.0 / length);
                 let slope = kernel.dw(r) * volume;
-                self.codes.push(Code { grad_w: e.times(slope).0, w: slope / r, e: e.0 });
+                let x = e.times(r);
+                self.codes.push(Code { grad_w: e.times(slope).0, w: slope / r, e: e.0, x: x.0 });
                 offsets.push(cell);
             }
         }
@@ -193,7 +195,7 @@ impl<const D: usize> Stencil<D> {
             }
             v
         };
-        Pair { grad_w: splat(code.grad_w), w: V::of(code.w), e: splat(code.e) }
+        Pair { grad_w: splat(code.grad_w), w: V::of(code.w), e: splat(code.e), x: splat(code.x) }
     }
 
     /// The pair of an entry whose lanes do not all count.
@@ -206,7 +208,7 @@ impl<const D: usize> Stencil<D> {
         }
         // SAFETY: as many numbers as any type has lanes.
         let mask = unsafe { V::load(lanes.as_ptr()) };
-        Pair { grad_w: pair.grad_w.times(mask), w: pair.w * mask, e: pair.e }
+        Pair { grad_w: pair.grad_w.times(mask), w: pair.w * mask, ..pair }
     }
 }
 

@@ -5,6 +5,7 @@ use super::places::{Column, PairPlaces, Places};
 use crate::field::{Quantity, Record};
 use crate::math::Element;
 use crate::particles::{GUARD, Particles, stride};
+use crate::run::Numbers;
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -143,6 +144,17 @@ impl<const D: usize, P: Precision> Store<D, P> {
             if self.single.len() < all + GUARD {
                 self.single.resize(all + GUARD, 0.0);
             }
+        }
+    }
+
+    /// One number of all particles, whichever precision it is kept in.
+    pub fn numbers(&self, field: Quantity, word: usize) -> Numbers<'_> {
+        let column = self.particles.place(field) + word;
+        if self.is_single(field, column) {
+            let first = self.at(column);
+            Numbers::Single(&self.single[first..first + self.particles.len()])
+        } else {
+            Numbers::Double(self.particles.nth(column))
         }
     }
 

@@ -34,6 +34,8 @@ pub enum Form {
     HourglassFree,
     /// `tl-nested`.
     TotalNested,
+    /// `tl-ganzenmueller`.
+    Ganzenmueller,
     /// `ul-non-hourglass`.
     NonHourglass,
     /// `ul-nested`.
@@ -41,8 +43,8 @@ pub enum Form {
 }
 
 /// All of them.
-pub const FORMS: [Form; 4] =
-    [Form::HourglassFree, Form::TotalNested, Form::NonHourglass, Form::UpdatedNested];
+pub const FORMS: [Form; 5] =
+    [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller, Form::NonHourglass, Form::UpdatedNested];
 
 /// What a body is made of and how it is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -115,6 +117,10 @@ impl Setup {
         total::Nested::new(self.material(), self.total_kernel(dimension).h())
     }
 
+    pub fn ganzenmueller(&self, dimension: usize) -> total::Ganzenmueller<NeoHookean> {
+        total::Ganzenmueller::new(self.material(), self.total_kernel(dimension), 10.0)
+    }
+
     pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass {
         updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
     }
@@ -154,6 +160,7 @@ impl Setup {
         match form {
             Form::HourglassFree => Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run)),
             Form::TotalNested => Box::new(simulation::total(points, (self.total_nested(D), m), t, run)),
+            Form::Ganzenmueller => Box::new(simulation::total(points, (self.ganzenmueller(D), m), t, run)),
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
             }

@@ -112,6 +112,7 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
         list.start.clear();
         list.start.push(0);
         list.pairs = 0;
+        list.loneliest = (chunk.first as u32, u32::MAX);
         let lanes = K::Listed::N;
         let (mut first, mut cell, mut near) = (0, None, Near::none());
         for a in chunk.first..chunk.end {
@@ -129,6 +130,9 @@ impl<E: Element + Plain, const D: usize> Walk<E> for Listing<'_, E, D> {
             first += len;
             list.start.push((first / lanes) as u32);
             list.pairs += found as u64;
+            if (found as u32) < list.loneliest.1 {
+                list.loneliest = (a as u32, found as u32);
+            }
             if self.pairs.fetch_add(found as u64, Ordering::Relaxed) > MOST_PAIRS {
                 break;
             }
