@@ -74,7 +74,7 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let forces = forces.iter().filter_map(|s| loads.load(s, problems)).collect();
     let initial = list(root, "initial", problems);
     let initial = initial.iter().filter_map(|s| loads.initial(s, problems)).collect();
-    let (probes, measures) = records(root, &mut shapes, (&body_names, &held, &all_names), problems);
+    let (probes, measures) = records(root, &mut shapes, [&body_names, &held, &all_names], problems);
     Parts {
         formulation: schemes.formulation,
         materials,
@@ -142,7 +142,7 @@ fn bodies<'a>(
 fn records<'a>(
     root: &'a Table,
     shapes: &mut ShapeReader<'a>,
-    (bodies, boundaries, touching): (&[Option<&'a str>], &[Option<&'a str>], &[Option<&'a str>]),
+    [bodies, boundaries, touching]: [&[Option<&'a str>]; 3],
     problems: &mut Problems,
 ) -> (Vec<Probe>, Vec<Measure>) {
     let scope = shapes.scope;
