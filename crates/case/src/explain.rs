@@ -2,7 +2,8 @@
 
 use crate::{
     Boundary, Case, Constraint, Course, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind,
-    March, MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Spot, Stepping, Tool, VectorField,
+    March, MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, Tool,
+    VectorField,
 };
 use std::fmt::Write as _;
 
@@ -136,10 +137,9 @@ fn rubbing(friction: f64) -> String {
 /// A load in words.
 fn load(case: &Case, load: &Load) -> String {
     let history = if load.history.is_some() { ", times a factor over time" } else { "" };
-    let (on, d) = match &load.spot {
-        Spot::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
-        Spot::Region(region) => (on(case, load.body, Some(region)), case.dimension),
-        Spot::Boundary(_) | Spot::Contact { .. } => (on(case, load.body, None), case.dimension),
+    let (on, d) = match &load.site {
+        Site::Point(at) => (format!("{} around {at:?} m", on(case, load.body, None)), case.dimension),
+        Site::Region(region) => (on(case, load.body, Some(region)), case.dimension),
     };
     match &load.kind {
         LoadKind::Force(field) => format!("{on} feels a total force of {} N{history}", vector(field, d)),

@@ -2,7 +2,7 @@
 
 use super::bodies::{Group, checked, padded, vector};
 use super::surface::{Face, Surface};
-use crate::{Case, CaseError, Formulation, Load, LoadKind, Spot};
+use crate::{Case, CaseError, Formulation, Load, LoadKind, Site};
 use std::collections::{HashMap, HashSet};
 use taut::field::Quantity;
 use taut::math::{Tensor, Vector};
@@ -84,21 +84,21 @@ fn shares<const D: usize>(
     load: &Load,
     groups: &[Group<'_, D>],
 ) -> Result<Vec<Share>, CaseError> {
-    match (&load.kind, &load.spot) {
-        (LoadKind::Force(_), Spot::Point(at)) => Ok(around(case, load, groups, vector(*at))),
-        (LoadKind::Force(_), Spot::Region(region)) => {
+    match (&load.kind, &load.site) {
+        (LoadKind::Force(_), Site::Point(at)) => Ok(around(case, load, groups, vector(*at))),
+        (LoadKind::Force(_), Site::Region(region)) => {
             let region = checked::<D>(case, region, load.place)?;
             Ok(weighted(case, load, groups, |point| {
                 if region.contains(padded(point.x)) { point.volume } else { 0.0 }
             }))
         }
-        (_, Spot::Region(region)) => {
+        (_, Site::Region(region)) => {
             let region = checked::<D>(case, region, load.place)?;
             let surface = Surface::of(case, load, groups)?;
             Ok(surface.faces(&region).flat_map(|face| on_face(case, groups, face)).collect())
         }
-        // The reader lets no load stand on these.
-        (_, Spot::Point(_) | Spot::Boundary(_) | Spot::Contact { .. }) => Ok(Vec::new()),
+        // The reader lets no load on faces stand on a point.
+        (_, Site::Point(_)) => Ok(Vec::new()),
     }
 }
 

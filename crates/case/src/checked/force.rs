@@ -3,7 +3,7 @@
 use super::field::{FieldExpression, VectorField};
 use super::history::{self, History};
 use super::load::LoadReader;
-use super::probe::Spot;
+use super::shape::ShapeSpec;
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::load as keys;
 use crate::source::Place;
@@ -15,13 +15,22 @@ pub struct Load {
     /// What acts.
     pub kind: LoadKind,
     /// Where.
-    pub spot: Spot,
+    pub site: Site,
     /// Number of the body; `None` for all.
     pub body: Option<usize>,
     /// Factor over time; `None` for 1.
     pub history: Option<History>,
     /// Its header in the case file.
     pub place: Place,
+}
+
+/// Where a load acts.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Site {
+    /// Around a point of the undeformed body, m.
+    Point([f64; 3]),
+    /// On what is in here.
+    Region(ShapeSpec),
 }
 
 /// What acts.
@@ -78,10 +87,10 @@ impl LoadReader<'_, '_> {
         let body = problems.keep(self.body(section));
         let kind = problems.keep(self.kind(section));
         let force = !matches!(kind, Some(LoadKind::Traction(_) | LoadKind::Pressure(_)));
-        let spot = problems.keep(self.spot(section, force));
+        let site = problems.keep(self.site(section, force));
         let history = section.get(keys::HISTORY.name).map(|node| history::read(self.scope, node));
         let history = problems.keep(history.transpose());
-        Some(Load { kind: kind?, spot: spot?, body: body?, history: history?, place: section.place })
+        Some(Load { kind: kind?, site: site?, body: body?, history: history?, place: section.place })
     }
 
     fn kind(&self, section: &Section<'_>) -> Result<LoadKind, Diagnostic> {
@@ -101,12 +110,12 @@ impl LoadReader<'_, '_> {
         }
     }
 
-    fn spot(&mut self, section: &Section<'_>, force: bool) -> Result<Spot, Diagnostic> {
+    fn site(&mut self, section: &Section<'_>, force: bool) -> Result<Site, Diagnostic> {
         match (section.get(keys::AT.name), section.get(keys::REGION.name)) {
-            (Some(node), None) if force => Ok(Spot::Point(self.scope.vector(node, &keys::AT)?)),
+            (Some(node), None) if force => Ok(Site::Point(self.scope.vector(node, &keys::AT)?)),
             (Some(node), None) => Err(Diagnostic::at(node.place, "only a `force` can act at a point")
                 .help("give the `region` that the loaded faces lie in")),
-            (None, Some(node)) => Ok(Spot::Region(self.shapes.shape(node)?)),
+            (None, Some(node)) => Ok(Site::Region(self.shapes.shape(node)?)),
             (None, None) => Err(Diagnostic::at(section.place, "missing key `region`: where the load acts")
                 .help("for example region = { box = { min = [0, 0], max = [1, 1] } }; a `force` may have at = [..] instead")),
             (Some(node), Some(_)) => {

@@ -39,7 +39,7 @@ pub use curves::Curves;
 pub(crate) use defaults::cfl as default_cfl;
 pub use elastic::Elastic;
 pub use field::{FieldExpression, VectorField};
-pub use force::{Load, LoadKind};
+pub use force::{Load, LoadKind, Site};
 pub use history::History;
 pub use load::{Boundary, Constraint, Gravity, Initial};
 pub use material::{Material, Model};

@@ -66,6 +66,7 @@ macro_rules! glossary {
                         | Self::PrescribedVelocity
                         | Self::RestDensity
                         | Self::SoundSpeed
+                        | Self::Impedance
                         | Self::ShearModulus
                 )
             }
@@ -120,6 +121,8 @@ glossary! {
     Pressure: AsScalar, "p", "Pa";
     /// Bulk sound speed sqrt(K/rho0).
     SoundSpeed: AsScalar, "c0", "m/s";
+    /// Acoustic impedance rho0 c0.
+    Impedance: AsScalar, "Z", "Pa s/m";
     /// Shear modulus.
     ShearModulus: AsScalar, "G", "Pa";
     /// Index of the body, as a number.

@@ -1,6 +1,7 @@
 //! What brings a total Lagrangian body to rest: the exchange of the splitting damping, the stops of kinetic damping, scaled masses,
 //! and how far it is from equilibrium.
 
+use super::Impulse;
 use crate::field::{Of, Quantity};
 use crate::math::{Real, Vector};
 use crate::pass::{Fold, Now, PairSweep, Reduce, Update};
@@ -8,8 +9,9 @@ use crate::run::Run;
 
 /// A solver that can be brought to rest.
 pub trait Relax {
-    /// Damps velocities pair by pair as the viscosity (Pa s) would in `dt` (s), implicitly: stable for any.
-    fn exchange(&mut self, viscosity: f64, dt: f64);
+    /// Damps velocities pair by pair as the viscosity (Pa s) would in `dt` (s), implicitly: stable for any. The impulse that the body has
+    /// gained: from held particles, and a moment, since what a pair exchanges is not along its line.
+    fn exchange(&mut self, viscosity: f64, dt: f64) -> Impulse;
     /// Takes all velocities of free components; what they held counts as dissipated.
     fn rest(&mut self);
     /// From now on stretched particles are as much heavier as they carry faster waves than at rest, so that they do not shorten the step.
@@ -175,6 +177,19 @@ impl<const D: usize> Reduce<D, 4> for Judge {
         let stress = p.volume * (p.q.double_dot(p.q) + S::of(self.floor));
         [force, stress, kinetic, held.norm_squared()]
     }
+}
+
+/// Momentum and angular momentum, kg m/s and kg m^2/s, with displacements as they stand.
+pub fn momentum<const D: usize>(run: &impl Run<D>) -> Impulse {
+    let mut sum = Impulse::default();
+    for place in 0..run.particles().len() {
+        let vector = |field| std::array::from_fn(|i| if i < D { run.word(field, i, place) } else { 0.0 });
+        let (x, u): ([f64; 3], [f64; 3]) =
+            (vector(Quantity::ReferencePosition), vector(Quantity::Displacement));
+        let m = run.word(Quantity::Mass, 0, place);
+        sum.push(std::array::from_fn(|i| x[i] + u[i]), vector(Quantity::Velocity).map(|v: f64| m * v));
+    }
+    sum
 }
 
 /// All velocities of free components gone. `at_rest` is the squared wave speed of masses that are not scaled, here and below; infinite if

@@ -275,13 +275,15 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 }
 
 impl<const D: usize, F: Formulation<D>, R: Run<D>> Relax for Total<D, F, R> {
-    fn exchange(&mut self, viscosity: f64, dt: f64) {
+    fn exchange(&mut self, viscosity: f64, dt: f64) -> Impulse {
+        let before = relax::momentum(&self.run);
         // Positions were checked when the body was started.
         let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.reach()).ok());
         self.sweeper = sweeper.map(|mut sweeper| {
             sweeper.sweep(&mut self.run, &Exchange { eta_dt: viscosity * dt });
             sweeper
         });
+        relax::momentum(&self.run) - before
     }
 
     fn rest(&mut self) {

@@ -96,9 +96,16 @@ impl Kernel {
     #[must_use]
     #[inline(always)]
     pub fn dw<S: Real>(&self, r: S) -> S {
+        let slope = self.slope(r * S::of(1.0 / self.h)) * S::of(self.scale / self.h);
+        S::select(r.lt(S::of(self.support())), slope, S::zero())
+    }
+
+    /// The slope without its unit, df/dq of W = scale f(q) at q = r/h inside the support.
+    #[must_use]
+    #[inline(always)]
+    pub fn slope<S: Real>(&self, q: S) -> S {
         let of = S::of;
-        let q = r * of(1.0 / self.h);
-        let slope = match self.shape {
+        match self.shape {
             Shape::WendlandC2 => {
                 let rest = q.mul_add(of(-0.5), S::one());
                 of(-5.0) * q * (rest * rest * rest)
@@ -108,8 +115,13 @@ impl Kernel {
                 S::select(q.lt(S::one()), q * q.mul_add(of(2.25), of(-3.0)), of(-0.75) * rest * rest)
             }
             Shape::Gaussian => of(-2.0) * q * (-q * q).exp(),
-        };
-        S::select(r.lt(of(self.support())), slope * of(self.scale / self.h), S::zero())
+        }
+    }
+
+    /// What makes W'/r of slope(q)/q, 1/m^(d+2).
+    #[must_use]
+    pub fn steepness(&self) -> f64 {
+        self.scale / (self.h * self.h)
     }
 }
 

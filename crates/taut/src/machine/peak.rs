@@ -63,17 +63,17 @@ fn chains<L: Lanes>(rounds: u32) -> f64 {
 }
 
 /// # Safety
-/// The machine has AVX2 and FMA.
+/// The machine has what AVX2 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn with_avx2<L: Lanes>(rounds: u32) -> f64 {
     chains::<L>(rounds)
 }
 
 /// # Safety
-/// The machine has AVX-512 F and DQ, AVX2 and FMA.
+/// The machine has what AVX-512 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn with_avx512<L: Lanes>(rounds: u32) -> f64 {
     chains::<L>(rounds)
 }

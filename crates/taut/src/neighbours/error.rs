@@ -1,7 +1,7 @@
 //! What can be wrong with positions and radii.
 
 /// Largest coordinate and radius a search accepts: squares of larger ones leave the range of `f64`.
-const LARGEST: f64 = 1e150;
+pub(super) const LARGEST: f64 = 1e150;
 
 /// Why a search was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,10 +1,19 @@
 //! Particles sorted into cells.
 //!
-//! A cell is a little wider than the search radius, so all that is near a point lies in the 3^D cells around it.
+//! ```text
+//!  2D, around o:  |   |   |   |   |   |     lines of cells go down: a cell is a little wider than the search radius, and an eighth of that
+//!                 |   |###|###|###|   |     long (drawn: a half). So all that is near a point lies in three lines of 17 cells (3D: nine
+//!                 |   |###|###|###|   |     lines), each of which is one range of slots, 29 % shorter than three cells as long as they are
+//!                 |   |###|# o|###|   |     wide.
+//!                 |   |###|###|###|   |
+//!                 |   |###|###|###|   |
+//!                 |   |   |   |   |   |
+//! ```
+//!
 //! The grid is folded: cell `c` of an axis is stored in row `c mod rows`. Where the particles' extent asks for
 //! no more rows than there are, folding changes nothing; where it asks for too many (one particle flung far
 //! away), distant cells share a place and the distance test tells them apart. Memory is thus bounded by the
-//! number of particles, never by where they are. At least three rows per axis keep the three cells around a
+//! number of particles, never by where they are. At least three rows per axis (17 along the last) keep the cells around a
 //! point apart.
 
 use std::ops::Range;
@@ -12,12 +21,15 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::error::{self, SearchError};
+use super::extent::{floor, range};
 use crate::math::MOST_LANES;
 
+/// Cells along the last axis to one along the others.
+const SLICES: usize = 8;
 /// Cells wider than the radius by this share, so that the rounding of a cell number cannot move two particles
-/// within the radius more than one cell apart.
+/// within the radius more than one cell (or [`SLICES`]) apart.
 const MARGIN: f64 = 1e-4;
-/// Cells along the extent at most: cell numbers are then rounded by less than 3 * 2^-53 * 2^36 < 0.3 MARGIN.
+/// Whole cells along the extent at most: cell numbers are then rounded by less than 3 * 2^-53 * 2^36 < 0.3 MARGIN.
 const FINEST: f64 = (1_u64 << 36) as f64;
 /// Cells per particle at most,
 const CELLS_PER_PARTICLE: usize = 4;
@@ -33,19 +45,23 @@ const CHUNK: usize = 1 << 14;
 pub struct CellGrid<const D: usize> {
     radius: f64,
     origin: [f64; D],
-    cells_per_metre: f64,
+    cells_per_metre: [f64; D],
     rows: [usize; D],
+    folded: [bool; D],
     cell: Vec<u32>,
     start: Vec<u32>,
     id: Vec<u32>,
     x: [Vec<f64>; D],
 }
 
-/// Ranges of slots that together hold every particle within the radius of a point, and others further away.
+/// The cells around a point: lines of them, and which of each line. [`CellGrid::ranges`] makes ranges of slots of it.
 #[derive(Debug, Clone)]
 pub struct Near {
-    ranges: [(u32, u32); 18],
+    /// The first cell of each line.
+    lines: [u32; 9],
     len: usize,
+    /// Which cells of a line, as one range or two.
+    along: [(u32, u32); 2],
 }
 
 impl<const D: usize> CellGrid<D> {
@@ -55,10 +71,11 @@ impl<const D: usize> CellGrid<D> {
         Self {
             radius: 1.0,
             origin: [0.0; D],
-            cells_per_metre: 1.0,
-            rows: [3; D],
+            cells_per_metre: [1.0; D],
+            rows: least(),
+            folded: [false; D],
             cell: Vec::new(),
-            start: vec![0; 3_usize.pow(D as u32) + 2],
+            start: vec![0; least::<D>().iter().product::<usize>() + 2],
             id: Vec::new(),
             x: std::array::from_fn(|_| Vec::new()),
         }
@@ -70,12 +87,25 @@ impl<const D: usize> CellGrid<D> {
     /// A coordinate or radius that is not a usable number, columns of unequal length, 2^32 particles or more.
     /// The grid then keeps what it held.
     pub fn build(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
+        self.bin(x, radius)?;
+        self.gather(x);
+        Ok(())
+    }
+
+    /// The same, but [`CellGrid::positions`] are not to be asked for.
+    ///
+    /// # Errors
+    /// As [`CellGrid::build`].
+    pub fn bin(&mut self, x: [&[f64]; D], radius: f64) -> Result<(), SearchError> {
         let n = error::particles(x)?;
         error::radius(radius)?;
-        error::check_positions(x)?;
-        self.shape(x, radius);
+        let ranges = x.map(range);
+        if ranges.iter().any(|&(low, high)| !(-error::LARGEST <= low && high <= error::LARGEST)) {
+            error::check_positions(x)?;
+        }
+        self.shape((ranges, n), radius);
         self.assign(x, n);
-        self.sort(x, n);
+        self.sort(n);
         Ok(())
     }
 
@@ -89,9 +119,11 @@ impl<const D: usize> CellGrid<D> {
         self.rows.iter().product()
     }
 
-    /// The cell a particle is in; two particles of one cell have the same [`CellGrid::near`].
-    pub fn cell_of(&self, particle: usize) -> u32 {
-        self.cell[particle]
+    /// The line of cells that a particle is in, and its cell on the line.
+    #[inline(always)]
+    pub fn cell_of(&self, particle: usize) -> (u32, u32) {
+        let (cell, rows) = (self.cell[particle], self.rows[D - 1] as u32);
+        (cell / rows, cell % rows)
     }
 
     /// The particle in each slot; behind them stand as many readable numbers as any type has lanes.
@@ -99,58 +131,95 @@ impl<const D: usize> CellGrid<D> {
         &self.id[..self.cell.len()]
     }
 
-    /// The position in each slot, as columns in m; behind each stand as many readable numbers as any type has lanes.
+    /// The position in each slot, as columns in m.
     pub fn positions(&self) -> [&[f64]; D] {
-        std::array::from_fn(|axis| &self.x[axis][..self.cell.len()])
+        std::array::from_fn(|axis| self.x[axis].as_slice())
     }
 
-    /// Slots that may lie within the radius of `point` (m); each slot at most once, always in the same order.
+    /// Whether cells far apart may share a place.
+    pub fn is_folded(&self) -> bool {
+        self.folded.contains(&true)
+    }
+
+    /// The cells that hold everything within the radius of `point` (m).
     pub fn near(&self, point: [f64; D]) -> Near {
-        let place = self.place(point);
-        let mut near = Near::none();
+        let cell = self.cell_at(point);
+        let mut near = Near { along: self.around(cell[D - 1]), ..Near::none() };
         for turn in 0..3_usize.pow(D as u32 - 1) {
-            let mut digits = turn;
-            let mut line = 0;
+            let (mut digits, mut line) = (turn, Some(0));
             for axis in 0..D - 1 {
-                line = line * self.rows[axis] + shift(place[axis], digits % 3, self.rows[axis]);
+                let row = self.row(axis, cell[axis] + (digits % 3) as i64 - 1);
+                line = line.zip(row).map(|(line, row)| line * self.rows[axis] + row);
                 digits /= 3;
             }
-            self.line(line * self.rows[D - 1], place[D - 1], &mut near);
+            if let Some(line) = line {
+                near.lines[near.len] = (line * self.rows[D - 1]) as u32;
+                near.len += 1;
+            }
         }
         near
     }
 
-    /// Adds the three cells around `middle` on the line of cells that starts at `first`.
-    fn line(&self, first: usize, middle: usize, near: &mut Near) {
-        let last = self.rows[D - 1] - 1;
-        let mut add =
-            |from: usize, to: usize| near.push(self.start[first + from], self.start[first + to + 1]);
-        if middle == 0 {
-            add(0, 1);
-            add(last, last);
-        } else if middle == last {
-            add(0, 0);
-            add(last - 1, last);
+    /// Moves `near` to another cell of the same line.
+    #[inline(always)]
+    pub fn slide(&self, near: &mut Near, cell: u32) {
+        near.along = self.around(i64::from(cell));
+    }
+
+    /// The slots in part `part` of the cells of `near`, below [`Near::parts`]. In all, each slot comes at most once, always in the same
+    /// order.
+    #[inline(always)]
+    pub fn range(&self, near: &Near, part: usize) -> Range<usize> {
+        let (first, (from, end)) = (near.lines[part / 2], near.along[part % 2]);
+        self.start[(first + from) as usize] as usize..self.start[(first + end) as usize] as usize
+    }
+
+    /// All of them.
+    pub fn ranges<'a>(&'a self, near: &'a Near) -> impl Iterator<Item = Range<usize>> + 'a {
+        (0..near.parts()).map(|part| self.range(near, part))
+    }
+
+    /// Where a cell of an axis is stored; nowhere, if it is beyond the particles.
+    #[inline(always)]
+    fn row(&self, axis: usize, cell: i64) -> Option<usize> {
+        let rows = self.rows[axis] as i64;
+        if (0..rows).contains(&cell) {
+            Some(cell as usize)
+        } else if self.folded[axis] {
+            Some(cell.rem_euclid(rows) as usize)
         } else {
-            add(middle - 1, middle + 1);
+            None
         }
     }
 
-    /// Chooses origin, cell size and the number of rows per axis.
-    fn shape(&mut self, x: [&[f64]; D], radius: f64) {
-        let mut extent = [0.0; D];
-        for axis in 0..D {
-            let low = x[axis].iter().copied().fold(f64::INFINITY, f64::min);
-            let high = x[axis].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            self.origin[axis] = if low.is_finite() { low } else { 0.0 };
-            extent[axis] = (high - low).max(0.0);
+    /// Where the cells around `middle` are stored on a line, as ranges.
+    #[inline(always)]
+    fn around(&self, middle: i64) -> [(u32, u32); 2] {
+        let (rows, reach) = (self.rows[D - 1] as i64, SLICES as i64);
+        let (from, end) = (middle - reach, middle + reach + 1);
+        if !self.folded[D - 1] {
+            return [(from.clamp(0, rows) as u32, end.clamp(0, rows) as u32), (0, 0)];
         }
+        let from = from.rem_euclid(rows);
+        let end = from + 2 * reach + 1;
+        [(from as u32, end.min(rows) as u32), (0, (end - rows).max(0) as u32)]
+    }
+
+    /// Chooses origin, cell size and the number of rows per axis.
+    fn shape(&mut self, (ranges, n): ([(f64, f64); D], usize), radius: f64) {
+        self.origin = ranges.map(|(low, _)| if low.is_finite() { low } else { 0.0 });
+        let extent = ranges.map(|(low, high)| (high - low).max(0.0));
         let longest = extent.iter().copied().fold(0.0, f64::max);
         let size = (radius * (1.0 + MARGIN)).max(longest / FINEST);
         self.radius = radius;
-        self.cells_per_metre = 1.0 / size;
-        let most = (CELLS_PER_PARTICLE * x[0].len()).clamp(FEW_CELLS, 1 << 31);
-        self.rows = fold(extent.map(|length| (length / size) as usize + 1), most);
+        let most = (CELLS_PER_PARTICLE * n).clamp(FEW_CELLS, 1 << 31);
+        let sizes: [f64; D] =
+            std::array::from_fn(|axis| size / if axis + 1 == D { SLICES as f64 } else { 1.0 });
+        let wanted: [usize; D] = std::array::from_fn(|axis| (extent[axis] / sizes[axis]) as usize + 1);
+        self.cells_per_metre = sizes.map(|size| 1.0 / size);
+        self.rows = fold(wanted, most);
+        // One more, in case that the rounding of a cell number disagrees with that of the extent.
+        self.folded = std::array::from_fn(|axis| wanted[axis] + 1 > self.rows[axis]);
     }
 
     /// Finds the cell of every particle.
@@ -168,7 +237,7 @@ impl<const D: usize> CellGrid<D> {
 
     /// Counting sort by cell. Counts stand two places ahead, so that each entry of `start`, advanced by one per
     /// particle placed, ends up as the start of the cell it belongs to.
-    fn sort(&mut self, x: [&[f64]; D], n: usize) {
+    fn sort(&mut self, n: usize) {
         self.start.clear();
         self.start.resize(self.cells() + 2, 0);
         for &cell in &self.cell {
@@ -186,9 +255,13 @@ impl<const D: usize> CellGrid<D> {
             self.id[*next as usize] = a as u32;
             *next += 1;
         }
+    }
+
+    /// Copies the positions into the order of the slots.
+    fn gather(&mut self, x: [&[f64]; D]) {
         for (sorted, column) in self.x.iter_mut().zip(x) {
-            sorted.resize(n + MOST_LANES, 0.0);
-            let slots = sorted.par_chunks_mut(CHUNK).zip(self.id[..n].par_chunks(CHUNK));
+            sorted.resize(column.len(), 0.0);
+            let slots = sorted.par_chunks_mut(CHUNK).zip(self.id[..column.len()].par_chunks(CHUNK));
             slots.for_each(|(sorted, ids)| {
                 for (x, &a) in sorted.iter_mut().zip(ids) {
                     *x = column[a as usize];
@@ -197,13 +270,18 @@ impl<const D: usize> CellGrid<D> {
         }
     }
 
-    /// Row of a point along each axis, folded.
+    /// The cell of a point along each axis.
+    #[inline(always)]
+    fn cell_at(&self, point: [f64; D]) -> [i64; D] {
+        std::array::from_fn(|axis| floor((point[axis] - self.origin[axis]) * self.cells_per_metre[axis]))
+    }
+
+    /// Where the cell of a point is stored along each axis.
     fn place(&self, point: [f64; D]) -> [usize; D] {
+        let cell = self.cell_at(point);
         std::array::from_fn(|axis| {
-            let cell = ((point[axis] - self.origin[axis]) * self.cells_per_metre).floor() as i64;
             let rows = self.rows[axis] as i64;
-            let folded = if (0..rows).contains(&cell) { cell } else { cell.rem_euclid(rows) };
-            folded as usize
+            (if (0..rows).contains(&cell[axis]) { cell[axis] } else { cell[axis].rem_euclid(rows) }) as usize
         })
     }
 }
@@ -217,48 +295,33 @@ impl<const D: usize> Default for CellGrid<D> {
 impl Near {
     /// Nothing.
     pub const fn none() -> Self {
-        Self { ranges: [(0, 0); 18], len: 0 }
+        Self { lines: [0; 9], len: 0, along: [(0, 0); 2] }
     }
 
-    /// The ranges of slots.
-    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.ranges[..self.len].iter().map(|&(from, to)| from as usize..to as usize)
-    }
-
-    /// Number of slots in all ranges.
-    pub fn candidates(&self) -> usize {
-        self.ranges().map(|range| range.len()).sum()
-    }
-
-    fn push(&mut self, from: u32, to: u32) {
-        if from < to {
-            self.ranges[self.len] = (from, to);
-            self.len += 1;
-        }
+    /// Number of parts, each of which is a range of slots, maybe empty: two for each line, because it may go round.
+    #[inline(always)]
+    pub const fn parts(&self) -> usize {
+        2 * self.len
     }
 }
 
-/// The row `step - 1` further than `row`, of `rows` rows in a circle; `step` is 0, 1 or 2.
-fn shift(row: usize, step: usize, rows: usize) -> usize {
-    let moved = row + step + rows - 1;
-    if moved >= 2 * rows {
-        moved - 2 * rows
-    } else if moved >= rows {
-        moved - rows
-    } else {
-        moved
-    }
+/// Least number of rows per axis.
+fn least<const D: usize>() -> [usize; D] {
+    std::array::from_fn(|axis| if axis + 1 == D { 2 * SLICES + 1 } else { 3 })
 }
 
-/// Number of rows to store per axis where the extent asks for `wanted`: at least 3, in all about `most` or less.
+/// Number of rows to store per axis where the extent asks for `wanted`: no fewer than [`least`], in all about `most` or less.
 fn fold<const D: usize>(wanted: [usize; D], most: usize) -> [usize; D] {
-    let mut rows = wanted.map(|count| count.clamp(3, most.max(3)));
+    let least = least::<D>();
+    let mut rows: [usize; D] =
+        std::array::from_fn(|axis| wanted[axis].saturating_add(1).clamp(least[axis], most.max(least[axis])));
     while rows.iter().map(|&count| count as f64).product::<f64>() > most as f64 {
-        let longest = (0..D).fold(0, |best, axis| if rows[axis] > rows[best] { axis } else { best });
-        if rows[longest] == 3 {
+        let ratio = |axis: usize| rows[axis] as f64 / least[axis] as f64;
+        let longest = (0..D).fold(0, |best, axis| if ratio(axis) > ratio(best) { axis } else { best });
+        if rows[longest] == least[longest] {
             break;
         }
-        rows[longest] = (rows[longest] / 2).max(3);
+        rows[longest] = (rows[longest] / 2).max(least[longest]);
     }
     rows
 }
@@ -288,9 +351,9 @@ mod tests {
     }
 
     #[test]
-    fn three_rows_at_least_and_halving_the_longest() {
-        assert_eq!(fold([1, 1], 4), [3, 3]);
-        assert_eq!(fold([1000, 20, 20], 340_000), [500, 20, 20]);
+    fn three_and_seventeen_rows_at_least_and_halving_the_longest() {
+        assert_eq!(fold([1, 1], 4), [3, 17]);
+        assert_eq!(fold([999, 19, 159], 2_800_000), [500, 20, 160]);
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod adjacency;
 mod error;
+mod extent;
 mod grid;
 mod lattice;
 mod order;
@@ -19,6 +20,7 @@ mod tests;
 
 pub use adjacency::Adjacency;
 pub use error::{SearchError, check_positions};
+pub(crate) use extent::floor;
 pub use grid::{CellGrid, Near};
 pub use lattice::Lattice;
 pub use order::storage_order;

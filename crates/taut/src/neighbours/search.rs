@@ -91,13 +91,13 @@ impl<Pair: Fn(usize, usize) -> bool, const D: usize> Finder<'_, Pair, D> {
     fn neighbours(&self, a: usize, mut filled: usize, ids: &mut Vec<u32>) -> usize {
         let point = self.x.map(|column| column[a]);
         let near = self.grid.near(point);
-        let room = filled + near.candidates();
+        let room = filled + self.grid.ranges(&near).map(|range| range.len()).sum::<usize>();
         if ids.len() < room {
             ids.resize(room, 0);
         }
         let square = self.grid.radius() * self.grid.radius();
         let positions = self.grid.positions();
-        for range in near.ranges() {
+        for range in self.grid.ranges(&near) {
             let columns = positions.map(|column| &column[range.clone()]);
             for (k, &id) in self.grid.ids()[range.clone()].iter().enumerate() {
                 let distance = (0..D).fold(0.0, |sum, axis| {

@@ -10,6 +10,8 @@ pub struct Grip {
     /// For each solver that has a part in it.
     parts: Vec<(usize, Held)>,
     impulse: Impulse,
+    /// What it exerted in the last step of a quasi-static run, N and N m.
+    force: Option<Impulse>,
 }
 
 impl Grip {
@@ -35,6 +37,12 @@ impl Grip {
     #[must_use]
     pub fn impulse(&self) -> Impulse {
         self.impulse
+    }
+
+    /// Force (N) and moment (N m) of the last step of a quasi-static run; others have impulses instead.
+    #[must_use]
+    pub fn force(&self) -> Option<Impulse> {
+        self.force
     }
 
     fn start(&mut self, solvers: &[Box<dyn Solver>]) {
@@ -182,6 +190,25 @@ impl Audit {
         }
         numbers.extend(self.body_forces.linear.iter_mut().chain(&mut self.body_forces.angular));
         numbers
+    }
+
+    /// Takes down what constraints exert in the step of `dt` that solver number `index` has just made, where motion is a means only: masses are
+    /// scaled and velocities taken, so momentum has no books.
+    pub fn weighed(&mut self, index: usize, solver: &dyn Solver, dt: f64) {
+        for grip in &mut self.grips {
+            for (k, (owner, part)) in grip.parts.iter_mut().enumerate() {
+                if *owner == index {
+                    let mut force = if k == 0 { Impulse::default() } else { grip.force.unwrap_or_default() };
+                    force += solver.holding(part, dt).times(1.0 / dt);
+                    grip.force = Some(force);
+                }
+            }
+        }
+    }
+
+    /// Takes down what damping gave: what held particles did to their neighbours by it, and its moment, which is not kept inside.
+    pub fn damped(&mut self, impulse: Impulse) {
+        self.body_forces += impulse;
     }
 
     /// Takes down what came from outside in the step that solver number `index` has just made.

@@ -1,12 +1,13 @@
 //! How the motion of a simulation is damped from outside of its formulations.
 
 use super::Solver;
+use crate::integrator::Impulse;
 use crate::pass::Now;
 
 /// Something that takes velocities in every step, after forces and constraints.
 pub trait Damping: Send {
-    /// Acts on the velocities at the end of step number `step`, which lasted `now.dt`.
-    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>, step: u64);
+    /// Acts on the velocities at the end of step number `step`, which lasted `now.dt`; the impulse that this gave to the bodies.
+    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>, step: u64) -> Impulse;
 }
 
 /// Splitting damping by random choice (TL ref. 68): in a share of the steps, chosen at random, velocities are exchanged pair by pair
@@ -37,15 +38,16 @@ fn scrambled(seed: u64, step: u64) -> u64 {
 }
 
 impl Damping for Splitting {
-    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>, step: u64) {
-        if !self.chooses(step) {
-            return;
-        }
-        for (solver, &viscosity) in solvers.iter_mut().zip(&self.viscosity) {
-            if let Some(body) = solver.relax() {
-                body.exchange(viscosity, now.dt / self.probability);
+    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>, step: u64) -> Impulse {
+        let mut gave = Impulse::default();
+        if self.chooses(step) {
+            for (solver, &viscosity) in solvers.iter_mut().zip(&self.viscosity) {
+                if let Some(body) = solver.relax() {
+                    gave += body.exchange(viscosity, now.dt / self.probability);
+                }
             }
         }
+        gave
     }
 }
 
@@ -59,7 +61,7 @@ pub struct Kinetic {
 }
 
 impl Damping for Kinetic {
-    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], _: Now<f64>, _: u64) {
+    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], _: Now<f64>, _: u64) -> Impulse {
         let bodies = solvers.iter_mut().filter_map(|solver| solver.relax());
         let kinetic = bodies.map(|body| body.unrest().kinetic).sum::<f64>();
         self.stopped = kinetic < self.before;
@@ -67,6 +69,8 @@ impl Damping for Kinetic {
         if self.stopped {
             solvers.iter_mut().filter_map(|solver| solver.relax()).for_each(|body| body.rest());
         }
+        // It belongs to quasi-static runs, where momentum has no books.
+        Impulse::default()
     }
 }
 

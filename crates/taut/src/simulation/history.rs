@@ -7,6 +7,8 @@ use crate::integrator::Bounding;
 const REMEMBERED: usize = 64;
 /// The particle at the bound is looked for again after so many steps, ...
 const LOOKED: u64 = 256;
+/// ... earlier if all were alike the last time, ...
+const ALIKE: u64 = 64;
 /// ... and at once when the step has fallen by this factor: the search reads all particles.
 const FALL: f64 = 0.9;
 
@@ -48,7 +50,7 @@ impl History {
         let fresh = |looked: &Step| {
             looked.solver == step.solver
                 && looked.bounding.criterion == step.bounding.criterion
-                && step.number < looked.number + LOOKED
+                && step.number < looked.number + if looked.particle.is_some() { LOOKED } else { ALIKE }
                 && step.dt > FALL * looked.dt
         };
         let step = match self.looked.filter(fresh) {

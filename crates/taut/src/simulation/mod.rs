@@ -26,7 +26,7 @@ pub use snapshot::{Snapshot, Totals};
 pub use crate::integrator::{Motion, Pose, Rigid, Seen, Solver};
 
 use crate::contact::Contact;
-use crate::integrator::Diverged;
+use crate::integrator::{Diverged, Impulse};
 use crate::pass::Now;
 use quasi_static::Load;
 
@@ -193,11 +193,15 @@ impl Simulation {
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {
             solver.advance(now).map_err(|diverged| diverged.after(first))?;
-            self.audit.advanced(index, solver.as_ref(), now.dt);
+            match load {
+                None => self.audit.advanced(index, solver.as_ref(), now.dt),
+                Some(_) => self.audit.weighed(index, solver.as_ref(), now.dt),
+            }
             first += solver.len() as u32;
         }
         if let Some(damping) = &mut self.damping {
-            damping.damp(&mut self.solvers, now, self.steps);
+            let gave = damping.damp(&mut self.solvers, now, self.steps);
+            self.audit.damped(if load.is_none() { gave } else { Impulse::default() });
         }
         if let Some(kinetic) = kinetic {
             kinetic.damp(&mut self.solvers, now, self.steps);

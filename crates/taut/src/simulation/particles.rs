@@ -104,6 +104,7 @@ pub fn updated<const D: usize, F: Formulation<D>, R: Run<D>>(
         p.column_mut(Quantity::Density, 0)[i] = m.density;
         p.column_mut(Quantity::RestDensity, 0)[i] = m.density;
         p.column_mut(Quantity::SoundSpeed, 0)[i] = m.sound_speed();
+        p.column_mut(Quantity::Impedance, 0)[i] = m.density * m.sound_speed();
         p.column_mut(Quantity::ShearModulus, 0)[i] = m.shear;
     }
     sort(&mut p, spacing(points));

@@ -156,7 +156,10 @@ fn a_total_body_blown_up_beyond_ten_times_its_volume_is_stopped() {
         let diverged = (0..20_000).find_map(|_| simulation.step().err()).expect("caught");
         assert_eq!((diverged.cause, diverged.field), (Cause::Density, "Density"), "{form:?}: {diverged}");
         // All have the same density: the first is named. Seen at the latest 256 steps after it happened.
-        assert_eq!((diverged.particle, diverged.bound), (0, 100.0), "{form:?}: {diverged}");
+        assert!(
+            diverged.particle == 0 && (diverged.bound / 100.0 - 1.0).abs() < 1e-12,
+            "{form:?}: {diverged}"
+        );
         assert!(diverged.value < 100.0 && diverged.value > 10.0, "{form:?}: {diverged}");
         assert_eq!(diverged.step, simulation.steps());
     }
@@ -184,7 +187,7 @@ fn a_particle_that_loses_its_neighbours_is_named() {
     for form in [Form::NonHourglass, Form::UpdatedNested] {
         let mut points = block([8, 6], DP);
         let last = points.len() - 1;
-        points[last].v = Vector([4.0, 4.0]).times(Setup::new(DP).moduli.sound_speed());
+        points[last].v = Vector([1.25, 1.25]).times(Setup::new(DP).moduli.sound_speed());
         let mut simulation = start(&Setup::new(DP), form, &points).expect("finite");
         let diverged = (0..500).find_map(|_| simulation.step().err()).expect("caught");
         names_its_particle(&diverged, &points, &format!("{form:?}"));

@@ -128,16 +128,16 @@ fn momentum_is_what_came_from_outside() {
     }
 }
 
-/// Exact where stress is symmetric in the list's own metric; the others (see `momentum`) drift. Bounds: twice what was measured
-/// (of the sum of m |x| |v| and the impulse).
+/// Exact where stress is symmetric in the list's own metric; the others (see `momentum`) drift. Bounds: twice the most that a benchmark
+/// misses (validation/README.md; of the sum of m |x| |v| and the impulse).
 #[test]
 fn angular_momentum_is_what_came_from_outside() {
     let mut beyond = Vec::new();
     for (form, bound) in [
         (Form::TotalNested, 4.0 * ROUNDING),
-        (Form::HourglassFree, 0.01),
-        (Form::NonHourglass, 0.06),
-        (Form::UpdatedNested, 0.03),
+        (Form::HourglassFree, 0.13),
+        (Form::NonHourglass, 0.24),
+        (Form::UpdatedNested, 0.12),
     ] {
         let mut most = 0.0;
         for load in [Load::Nothing, Load::Gravity, Load::Hands] {

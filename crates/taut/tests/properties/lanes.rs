@@ -15,7 +15,8 @@ const CANCELLED: f64 = 10.0;
 /// Sums of up to 64 terms in another order, with or without fused multiplication: 64 eps/2 of the sum of magnitudes, in
 /// each step.
 const ROUNDING: f64 = 64.0 * 1.1e-16 * CANCELLED * STEPS as f64;
-/// As ROUNDING, with listed weights that are two roundings of single precision off.
+/// As ROUNDING, with listed weights that are two roundings of single precision off: up to 16 in the worst case (those of r, three times
+/// each in (1 - q/2)^3), of any sign, over dozens of neighbours.
 const LISTED: f64 = 2.0 * SINGLE * CANCELLED * STEPS as f64;
 
 type Fields = Vec<(&'static str, Vec<f64>)>;

@@ -123,7 +123,7 @@ fn steps(page: &mut String, e: &Evidence<'_>) {
     let history = e.simulation.history().steps();
     let Some(first) = history.clone().next() else { return };
     page.push_str("## The time step\n\n");
-    page.push_str("What bounded the last steps. The last one is that which failed, or would have come next. The particle at the bound is looked for when the step falls by a tenth, and every 256 steps.\n\n");
+    page.push_str("What bounded the last steps. The last one is that which failed, or would have come next. The particle at the bound is looked for when the step falls by a tenth, and every 256 steps (64 if all were alike).\n\n");
     page.push_str("| step | begins at, s | dt, s | bound | c, m/s | largest speed, m/s | largest acceleration, m/s^2 | particle |\n|---|---|---|---|---|---|---|---|\n");
     let skipped = history.len().saturating_sub(SHOWN);
     let earlier = (skipped > 0).then_some(first);

@@ -34,7 +34,8 @@ pub(super) fn smallest<const D: usize>(
 fn nearest<const D: usize>(grid: &CellGrid<D>, dp: &[f64], slot: usize) -> f64 {
     let (x, ids) = (grid.positions(), grid.ids());
     let mut least = f64::INFINITY;
-    for other in grid.near(x.map(|column| column[slot])).ranges().flatten().filter(|&other| other != slot) {
+    let near = grid.near(x.map(|column| column[slot]));
+    for other in grid.ranges(&near).flatten().filter(|&other| other != slot) {
         let square = x.iter().fold(0.0, |sum, column| sum + (column[other] - column[slot]).powi(2));
         let unit = spacing(dp, ids[slot] as usize, ids[other] as usize);
         least = least.min(square / (unit * unit));

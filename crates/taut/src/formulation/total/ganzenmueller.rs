@@ -2,7 +2,7 @@
 
 use super::motion::{Kick, Rate, Stress, Stretch};
 use super::reference::MomentSum;
-use super::{CONTROLLED, Nested, Solid};
+use super::{CONTROLLED, Solid};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::kick::Mover;
@@ -21,8 +21,8 @@ use crate::run::Run;
 /// exact. alpha is a number to be tuned: too little lets zig-zag modes grow, too much stiffens what is not linear.
 #[derive(Clone, Copy, Debug)]
 pub struct Ganzenmueller<M> {
-    /// What it controls.
-    pub nested: Nested<M>,
+    /// Material and damper.
+    pub solid: Solid<M>,
     /// The kernel.
     pub kernel: Kernel,
     /// The strength of the control.
@@ -33,16 +33,16 @@ impl<M: Hyperelastic> Ganzenmueller<M> {
     /// With the paper's damping and this strength of the control (10 in the trials of the paper's cases).
     #[must_use]
     pub fn new(material: M, kernel: Kernel, alpha: f64) -> Self {
-        Self { nested: Nested::new(material, kernel.h()), kernel, alpha }
+        Self { solid: Solid::new(material, kernel.h()), kernel, alpha }
     }
 
     fn density(&self) -> f64 {
-        self.nested.solid.material.moduli().density
+        self.solid.material.moduli().density
     }
 
     /// alpha E, Pa.
     fn penalty(&self) -> f64 {
-        self.alpha * self.nested.solid.material.moduli().young()
+        self.alpha * self.solid.material.moduli().young()
     }
 }
 
@@ -115,7 +115,7 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Ganzenmueller<M> {
 
     #[inline(always)]
     fn solid(&self) -> &Solid<M> {
-        &self.nested.solid
+        &self.solid
     }
 
     #[inline(always)]
@@ -125,7 +125,7 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Ganzenmueller<M> {
         damping: Tensor<S, D>,
         correction: Tensor<S, D>,
     ) -> (Tensor<S, D>, S) {
-        self.nested.hand_over(f, damping, correction)
+        (self.solid.corrected(f, damping, correction), S::zero())
     }
 
     /// Springs of the control: a mode that alternates along one axis has rho0 omega^2 h^2 = 0.71 alpha E (2 alpha E sum W V h^2 (e_x/R)^2 over
@@ -133,7 +133,7 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Ganzenmueller<M> {
     /// critical Courant number is 1.06 with c), and a step of 0.6 h/c can carry 4 / 0.6^2 = 11.1 of it together.
     #[inline(always)]
     fn stiffness<S: Real>(&self, f: Tensor<S, D>) -> S {
-        let material = self.nested.solid.material.stiffness(f);
+        let material = self.solid.material.stiffness(f);
         material.max(material.mul_add(S::of(3.5 / 11.1), S::of(self.penalty() * 0.71 / 11.1)))
     }
 }
@@ -156,7 +156,7 @@ impl<M: Hyperelastic, const D: usize> Formulation<D> for Ganzenmueller<M> {
 
     /// The energy of the control counts as strain energy.
     fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
-        let state = self.nested.solid.state(run, place, ahead);
+        let state = self.solid.state(run, place, ahead);
         State { strain_energy: state.strain_energy + run.word(Quantity::ShearWork, 0, place), ..state }
     }
 }

@@ -80,6 +80,20 @@ impl<M: Hyperelastic> Solid<M> {
         rate.mul(f.transpose()).symmetric().times(S::of(self.gamma))
     }
 
+    /// (tau + tau_d) F^-T B^T, what the nested forms hand over: B is symmetric but for the rounding of listed weights, and only B^T is the adjoint
+    /// of the gradient whatever they are.
+    #[inline(always)]
+    pub fn corrected<S: Real, const D: usize>(
+        &self,
+        f: Tensor<S, D>,
+        damping: Tensor<S, D>,
+        correction: Tensor<S, D>,
+    ) -> Tensor<S, D> {
+        let tau = self.material.kirchhoff(f);
+        let in_plane: Tensor<S, D> = Tensor::from_fn(|i, j| tau[i][j] + damping[i][j]);
+        in_plane.mul(f.inverse().transpose()).mul(correction.transpose())
+    }
+
     /// State of a stored particle.
     pub(crate) fn state<const D: usize>(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
         let word = |field, k| run.word(field, k, place);

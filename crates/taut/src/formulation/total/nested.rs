@@ -59,8 +59,6 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Nested<M> {
         &self.solid
     }
 
-    /// Q = (tau + tau_d) F^-T B^T: B is symmetric but for the rounding of listed weights, and only B^T is the adjoint of the
-    /// gradient whatever they are.
     #[inline(always)]
     fn hand_over<S: Real>(
         &self,
@@ -68,9 +66,7 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Nested<M> {
         damping: Tensor<S, D>,
         correction: Tensor<S, D>,
     ) -> (Tensor<S, D>, S) {
-        let tau = self.solid.material.kirchhoff(f);
-        let in_plane: Tensor<S, D> = Tensor::from_fn(|i, j| tau[i][j] + damping[i][j]);
-        (in_plane.mul(f.inverse().transpose()).mul(correction.transpose()), S::zero())
+        (self.solid.corrected(f, damping, correction), S::zero())
     }
 }
 

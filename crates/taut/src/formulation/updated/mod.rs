@@ -34,6 +34,7 @@ pub(crate) const FIELDS: &[Quantity] = &[
     Quantity::DensityRate,
     Quantity::Pressure,
     Quantity::SoundSpeed,
+    Quantity::Impedance,
     Quantity::ShearModulus,
     Quantity::Correction,
     Quantity::ShearAcceleration,

@@ -20,7 +20,7 @@ pub struct Nested {
 
 record! {
     /// What the force needs.
-    Stressed { v: Velocity, p: Pressure, rest: RestDensity, c: SoundSpeed, s: ShearStress, body: Body }
+    Stressed { v: Velocity, p: Pressure, z: Impedance, s: ShearStress, body: Body }
     /// What the rates need.
     Flow { v: Velocity, body: Body }
     /// The sums of the rates.
@@ -69,7 +69,7 @@ impl<const D: usize> PairSum<D> for Momentum {
         ab: &Pair<S, D, M>,
         _: &Now<S>,
     ) {
-        let pushing = |p: &Stressed<S, D>| Pushing { v: p.v, p: p.p, z: p.rest * p.c };
+        let pushing = |p: &Stressed<S, D>| Pushing { v: p.v, p: p.p, z: p.z };
         push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
         ab.dot(&mut sum.f, (a.s + b.s).times(same_body(a.body, b.body)));
     }

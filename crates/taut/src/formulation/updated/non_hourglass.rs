@@ -41,7 +41,7 @@ impl NonHourglass {
 
 record! {
     /// What the force needs.
-    Pressed { v: Velocity, p: Pressure, rest: RestDensity, c: SoundSpeed }
+    Pressed { v: Velocity, p: Pressure, z: Impedance }
     /// What the rates need.
     Flow { v: Velocity, body: Body }
     /// The sums of the rates.
@@ -74,8 +74,8 @@ impl<const D: usize> PairSum<D> for Momentum {
         ab: &Pair<S, D, M>,
         _: &Now<S>,
     ) {
-        let a = Pushing { v: a.v, p: a.p, z: a.rest * a.c };
-        let b = Pushing { v: b.v, p: b.p, z: b.rest * b.c };
+        let a = Pushing { v: a.v, p: a.p, z: a.z };
+        let b = Pushing { v: b.v, p: b.p, z: b.z };
         push((&mut sum.f, &mut sum.power), (&a, &b), ab);
     }
 }

@@ -1,5 +1,5 @@
 //! Lanes of AVX2 with fused multiply-add. Reached only behind [`available`], through a function that carries
-//! `#[target_feature(enable = "avx2,fma")]` and into which all of this is inlined.
+//! `#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
@@ -9,7 +9,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Whether this machine has what these lanes need.
 #[must_use]
 pub fn available() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+    // The last three came with AVX2 in every processor: counting and shifting bits.
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("popcnt")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
 }
 
 /// Four doubles in one AVX register.
@@ -126,25 +131,17 @@ real!(
     f32
 );
 
-/// How four lanes are packed: the halves of doubles, and the bytes of whole numbers, in their new order.
-struct Packed {
-    doubles: [u32; 8],
-    bytes: [u8; 16],
-}
-
-/// For every set of lanes.
-static PACKED: [Packed; 16] = {
-    let mut table = [const { Packed { doubles: [0; 8], bytes: [0; 16] } }; 16];
+/// How four numbers of four bytes are packed: their bytes in the new order, for every set of lanes.
+static PACKED: [[u8; 16]; 16] = {
+    let mut table = [[0; 16]; 16];
     let mut bits = 0;
     while bits < 16 {
         let (mut lane, mut found) = (0, 0);
         while lane < 4 {
             if bits >> lane & 1 == 1 {
-                table[bits].doubles[2 * found] = 2 * lane as u32;
-                table[bits].doubles[2 * found + 1] = 2 * lane as u32 + 1;
                 let mut byte = 0;
                 while byte < 4 {
-                    table[bits].bytes[4 * found + byte] = (4 * lane + byte) as u8;
+                    table[bits][4 * found + byte] = (4 * lane + byte) as u8;
                     byte += 1;
                 }
                 found += 1;
@@ -155,6 +152,21 @@ static PACKED: [Packed; 16] = {
     }
     table
 };
+
+/// Writes those of four floats whose bits are set, and the whole numbers behind `ids` that belong to them, one after the other.
+///
+/// # Safety
+/// AVX2 is there; four numbers stand, or have room, behind each address.
+#[inline(always)]
+unsafe fn pack_four(bits: u32, (x, ids): (__m128, *const u32), (to, to_ids): (*mut f32, *mut u32)) {
+    let order = PACKED[bits as usize & 15].as_ptr();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let order = _mm_loadu_si128(order.cast());
+        _mm_storeu_si128(to.cast(), _mm_shuffle_epi8(_mm_castps_si128(x), order));
+        _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), order));
+    }
+}
 
 impl Lanes for F64x4 {
     type E = f64;
@@ -230,16 +242,9 @@ impl Lanes for F64x4 {
         }
     }
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
-        let order = &PACKED[bits as usize & 15];
+    unsafe fn compress(self, bits: u32, ids: *const u32, to: (*mut f32, *mut u32)) {
         // SAFETY: the caller vouches for four numbers behind each address.
-        unsafe {
-            let pairs = _mm256_loadu_si256(order.doubles.as_ptr().cast());
-            let packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(self.0), pairs);
-            _mm256_storeu_pd(to, _mm256_castps_pd(packed));
-            let bytes = _mm_loadu_si128(order.bytes.as_ptr().cast());
-            _mm_storeu_si128(to_ids.cast(), _mm_shuffle_epi8(_mm_loadu_si128(ids.cast()), bytes));
-        }
+        unsafe { pack_four(bits, (_mm256_cvtpd_ps(self.0), ids), to) }
     }
     #[inline(always)]
     fn bits(mask: __m256d) -> u32 {
@@ -325,6 +330,16 @@ impl Lanes for F32x8 {
     fn totals(rows: &[Self], to: &mut [f64]) {
         for (rows, to) in rows.chunks_exact(4).zip(to.chunks_exact_mut(4)) {
             F64x4::totals(&[rows[0].folded(), rows[1].folded(), rows[2].folded(), rows[3].folded()], to);
+        }
+    }
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        // SAFETY: the caller vouches for eight numbers behind each address; no more than four are packed from the first half.
+        unsafe {
+            let found = (bits & 15).count_ones() as usize;
+            pack_four(bits & 15, (_mm256_castps256_ps128(self.0), ids), (to, to_ids));
+            let high = _mm256_extractf128_ps::<1>(self.0);
+            pack_four(bits >> 4, (high, ids.add(4)), (to.add(found), to_ids.add(found)));
         }
     }
     #[inline(always)]

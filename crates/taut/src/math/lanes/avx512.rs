@@ -1,5 +1,5 @@
 //! Lanes of AVX-512. Reached only behind [`available`], through a function that carries
-//! `#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]` and into which all of this is inlined.
+//! `#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
@@ -9,7 +9,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Whether this machine has what these lanes need.
 #[must_use]
 pub fn available() -> bool {
-    super::avx2::available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
+    super::avx2::available()
+        && is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
 }
 
 /// Eight doubles in one AVX-512 register.
@@ -175,17 +178,22 @@ impl Lanes for F64x8 {
     unsafe fn transposed(from: impl Fn(usize) -> *const f64) -> [Self; 4] {
         // SAFETY: the caller vouches for four doubles behind each address.
         unsafe {
+            // Records l and l + 2 share a register, so that quarters of the unpacked ones only need to be put in order.
             macro_rules! both {
                 ($l:literal) => {{
                     let low = _mm512_castpd256_pd512(_mm256_loadu_pd(from($l)));
-                    _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from($l + 4)))
+                    _mm512_insertf64x4::<1>(low, _mm256_loadu_pd(from($l + 2)))
                 }};
             }
-            let (a, b, c, d) = (both!(0), both!(1), both!(2), both!(3));
+            let (a, b, c, d) = (both!(0), both!(1), both!(4), both!(5));
             let (ab, cd) = (_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d));
             let (ab2, cd2) = (_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d));
-            let [first, second] = [Self(ab).halves(Self(cd)), Self(ab2).halves(Self(cd2))];
-            [first.0, second.0, first.1, second.1]
+            [
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(ab, cd)),
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(ab2, cd2)),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(ab, cd)),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(ab2, cd2)),
+            ]
         }
     }
     #[inline(always)]
@@ -217,13 +225,13 @@ impl Lanes for F64x8 {
         u32::from(mask)
     }
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f64, *mut u32)) {
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
         // SAFETY: the caller vouches for eight numbers behind each address. (Packed in the register and stored whole: the
-        // instruction that stores only some lanes is slow on some processors. Ids go as 64 bits: half-width needs AVX-512 VL.)
+        // instruction that stores only some lanes is slow on some processors.)
         unsafe {
-            _mm512_storeu_pd(to, _mm512_maskz_compress_pd(bits as u8, self.0));
-            let wide = _mm512_cvtepu32_epi64(_mm256_loadu_si256(ids.cast()));
-            let packed = _mm512_cvtepi64_epi32(_mm512_maskz_compress_epi64(bits as u8, wide));
+            let packed = _mm256_maskz_compress_ps(bits as u8, _mm512_cvtpd_ps(self.0));
+            _mm256_storeu_ps(to, packed);
+            let packed = _mm256_maskz_compress_epi32(bits as u8, _mm256_loadu_si256(ids.cast()));
             _mm256_storeu_si256(to_ids.cast(), packed);
         }
     }
@@ -312,6 +320,15 @@ impl Lanes for F32x16 {
     #[inline(always)]
     fn bits(mask: __mmask16) -> u32 {
         u32::from(mask)
+    }
+    #[inline(always)]
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        // SAFETY: the caller vouches for sixteen numbers behind each address.
+        unsafe {
+            _mm512_storeu_ps(to, _mm512_maskz_compress_ps(bits as u16, self.0));
+            let packed = _mm512_maskz_compress_epi32(bits as u16, _mm512_loadu_si512(ids.cast()));
+            _mm512_storeu_si512(to_ids.cast(), packed);
+        }
     }
     #[inline(always)]
     fn steps_from(self, _: usize, own: u32) -> Self {

@@ -71,18 +71,18 @@ pub trait Lanes: Real {
     /// A mask as bits, the first lane lowest.
     fn bits(mask: Self::Mask) -> u32;
 
-    /// Writes the lanes whose bits are set to `to`, one after the other, and the whole numbers that stand at their places from
-    /// `ids` on to `to_ids`. What follows them, up to `N` numbers in all, is overwritten too. Without branches: which lanes
-    /// count cannot be foreseen.
+    /// Writes the lanes whose bits are set to `to`, one after the other, in single precision, and the whole numbers that stand at their
+    /// places from `ids` on to `to_ids`. What follows them, up to `N` numbers in all, is overwritten too. Without branches: which
+    /// lanes count cannot be foreseen.
     ///
     /// # Safety
     /// `ids` points at `N` readable, `to` and `to_ids` at `N` writable numbers.
     #[inline(always)]
-    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut Self::E, *mut u32)) {
-        let mut all = [Self::E::default(); MOST_LANES];
+    unsafe fn compress(self, bits: u32, ids: *const u32, (to, to_ids): (*mut f32, *mut u32)) {
+        let mut all = [0.0; MOST_LANES];
         // SAFETY: room for any lanes; the rest is the caller's promise.
         unsafe {
-            self.store(all.as_mut_ptr());
+            self.store_single(all.as_mut_ptr());
             let mut found = 0;
             for (lane, &x) in all.iter().enumerate().take(Self::N) {
                 to.add(found).write(x);

@@ -70,12 +70,12 @@ fn exercise_pairs<V: Lanes>() {
 
     let ids: Vec<u32> = (0..V::N as u32).map(|l| 100 + l).collect();
     for bits in 0..1_u32 << V::N.min(8) {
-        let (mut to, mut to_ids) = (vec![V::E::default(); V::N], vec![0; V::N]);
+        let (mut to, mut to_ids) = (vec![0.0; V::N], vec![0; V::N]);
         // SAFETY: `N` numbers behind each pointer.
         unsafe { rows[0].compress(bits, ids.as_ptr(), (to.as_mut_ptr(), to_ids.as_mut_ptr())) };
         let wanted: Vec<usize> = (0..V::N).filter(|l| bits >> l & 1 == 1).collect();
         for (k, &l) in wanted.iter().enumerate() {
-            assert_eq!((to[k].to_f64(), to_ids[k]), (row(0)[l].to_f64(), ids[l]), "lanes {bits:b}");
+            assert_eq!((f64::from(to[k]), to_ids[k]), (row(0)[l].to_f64(), ids[l]), "lanes {bits:b}");
         }
     }
     assert_eq!(V::bits(rows[0].lt(V::of(8.0))), 0b111, "lanes hold 1, 4, 7, 10, ...");

@@ -1,12 +1,12 @@
 //! Which lanes a run uses: for each precision and instruction set, one type for pair sums and one for updates.
 
-use super::lines::Plain;
 #[cfg(target_arch = "aarch64")]
 use crate::math::neon;
 use crate::math::plain::{Plain4, PlainSingle8};
 use crate::math::{Element, Lanes};
 #[cfg(target_arch = "x86_64")]
 use crate::math::{avx2, avx512};
+use crate::particles::Plain;
 
 /// Lanes of one precision on one instruction set. Updates are always in double precision.
 pub trait Kit {
@@ -14,6 +14,10 @@ pub trait Kit {
     type Pair: Lanes;
     /// Lanes of pair sums over a list. Half as many may be better: the last block of a particle is seldom full.
     type Listed: Lanes<E = <Self::Pair as Lanes>::E>;
+    /// Lanes in which neighbours are searched for.
+    type Search: Lanes<E = f32>;
+    /// Lanes in which the weights of a list are made: as many as in a block of the list, or twice as many.
+    type Weight: Lanes<E = f32>;
     /// Lanes of updates; as many as those of pair sums, or half.
     type Point: Lanes<E = f64>;
     /// Whether pair sums are in single precision.
@@ -48,7 +52,7 @@ pub struct Double;
 pub struct Single;
 
 macro_rules! kits {
-    ($($(#[$on:meta])* $kit:ident: $pair:ty, $listed:ty, $point:ty, $mixed:literal;)*) => {$(
+    ($($(#[$on:meta])* $kit:ident: $pair:ty, $listed:ty, $search:ty, $weight:ty, $point:ty, $mixed:literal;)*) => {$(
         /// A kit.
         $(#[$on])*
         #[derive(Clone, Copy, Debug)]
@@ -57,26 +61,28 @@ macro_rules! kits {
         impl Kit for $kit {
             type Pair = $pair;
             type Listed = $listed;
+            type Search = $search;
+            type Weight = $weight;
             type Point = $point;
             const MIXED: bool = $mixed;
         }
     )*};
 }
 kits! {
-    PlainDouble: Plain4, Plain4, Plain4, false;
-    PlainSingle: PlainSingle8, PlainSingle8, Plain4, true;
+    PlainDouble: Plain4, Plain4, PlainSingle8, PlainSingle8, Plain4, false;
+    PlainSingle: PlainSingle8, PlainSingle8, PlainSingle8, PlainSingle8, Plain4, true;
     #[cfg(target_arch = "aarch64")]
-    NeonDouble: neon::F64x4, neon::F64x4, neon::F64x4, false;
+    NeonDouble: neon::F64x4, neon::F64x4, neon::F32x8, neon::F32x8, neon::F64x4, false;
     #[cfg(target_arch = "aarch64")]
-    NeonSingle: neon::F32x8, neon::F32x8, neon::F64x4, true;
+    NeonSingle: neon::F32x8, neon::F32x8, neon::F32x8, neon::F32x8, neon::F64x4, true;
     #[cfg(target_arch = "x86_64")]
-    Avx2Double: avx2::F64x4, avx2::F64x4, avx2::F64x4, false;
+    Avx2Double: avx2::F64x4, avx2::F64x4, avx2::F32x8, avx2::F32x8, avx2::F64x4, false;
     #[cfg(target_arch = "x86_64")]
-    Avx2Single: avx2::F32x8, avx2::F32x8, avx2::F64x4, true;
+    Avx2Single: avx2::F32x8, avx2::F32x8, avx2::F32x8, avx2::F32x8, avx2::F64x4, true;
     #[cfg(target_arch = "x86_64")]
-    Avx512Double: avx512::F64x8, avx512::F64x8, avx512::F64x8, false;
+    Avx512Double: avx512::F64x8, avx512::F64x8, avx512::F32x16, avx2::F32x8, avx512::F64x8, false;
     #[cfg(target_arch = "x86_64")]
-    Avx512Single: avx512::F32x16, avx2::F32x8, avx512::F64x8, true;
+    Avx512Single: avx512::F32x16, avx2::F32x8, avx512::F32x16, avx2::F32x8, avx512::F64x8, true;
 }
 
 impl Precision for Double {

@@ -5,34 +5,50 @@
 //! a chunk of particles owns its part of the list:
 //!   start   | first block of each particle                                |
 //!   ids     | b0 b1 b2 b3 | b4 b5 b6 b7 | b8  a  a  a | ...   the last block is filled up with a itself
-//!   w       | V_b W'/r of the same pairs, 0 in the fill   | ...
-//!   over_r  | 1/r of the same pairs, 0 in the fill        | ...   (read only where a pass needs the direction)
-//! records:  | what the pass reads of particle 0 | its place | up to a multiple of four numbers | of particle 1 | ...
+//!   slope   | s of the same pairs, single, 0 in the fill  | ...   s = W'/r without its unit
+//!   over_q  | h/r of the same pairs, 0 in the fill        | ...   (read only where a pass needs the direction)
+//! records:  | what the pass reads of particle 0 | its place | its volume | up to a multiple of four numbers | of particle 1 | ...
 //! ```
 //!
-//! The loop is bound by the memory it streams through: a list that held the gradient too (24 bytes a pair in 3D) ran at half
-//! the speed of this one (12, or 16 with the direction). The distance x_ab comes from the records instead, where each
+//! What the loop streams through matters: a list that held the gradient too (24 bytes a pair in 3D) ran at half
+//! the speed of one with 12, and this one has 8 (12 with the direction). The distance x_ab comes from the records instead, where each
 //! is used by all neighbours: a place is D whole numbers, the position in steps of 2^-30 of the kernel's support, counted modulo 2^32.
-//! Their difference is exact, changes sign with the pair, and is 1e-9 of the support off; so
-//! `grad W V_b = w x_ab` and `e = x_ab / r`. The volume of b is part of w in the precision of the run: V_a V_b stands in both
-//! halves of a pair, and momentum is exact to that rounding. The correction matrix is made from the same weights, so that
-//! gradients of linear fields are exact. Whole records are loaded and transposed in registers: gathers from columns would be
+//! Their difference is exact, changes sign with the pair, and is 1e-9 of the support off; so `grad W V_b = w x_ab` and `e = x_ab / r`.
+//! In single precision s is 1e-7 off, but the same for both halves of a pair; so V_a V_b s is too, and momentum is exact
+//! to rounding in the precision of the run. The correction matrix is made from the same weights, so that gradients of linear fields are exact.
+//!
+//! A record of the plane has no room for the volume (it would grow from a half or a whole cache line to the next), and in a single
+//! run nothing would be gained. There the list holds w = s V_b in the precision of the run instead of s ([`volume_apart`]).
+//!
+//! Whole records are loaded and transposed in registers: gathers from columns would be
 //! slower. What comes next in the list is asked for ahead of time: the hardware does not see it coming (measured: twice the speed).
 
 use super::CHUNK;
-use super::lines::{Lines, Plain};
+use crate::kernel::Kernel;
 use crate::math::{Element, Lanes, MOST_LANES, Vector, prefetch};
+use crate::neighbours::floor;
+use crate::particles::{Lines, Plain};
 use crate::pass::{ALL_WEIGHTS, Pair};
 use rayon::prelude::*;
 
 /// Blocks between the one at work and the one asked for.
 const AHEAD: usize = 16;
 /// Steps of the fine grid in the support of the kernel.
-const STEPS: f64 = (1_u32 << 30) as f64;
+pub const STEPS: f64 = (1_u32 << 30) as f64;
 
 /// Numbers that hold the place of a particle.
 pub const fn place_words<E: Element, const D: usize>() -> usize {
     D.div_ceil(E::COORDINATES)
+}
+
+/// Whether the volume of b stands in its record, behind the place, and not in the weight of each of its pairs.
+pub const fn volume_apart<E: Element, const D: usize>() -> bool {
+    size_of::<E>() > size_of::<f32>() && D == 3
+}
+
+/// Numbers that stand in a record behind what the pass reads.
+pub const fn tail_words<E: Element, const D: usize>() -> usize {
+    place_words::<E, D>() + volume_apart::<E, D>() as usize
 }
 
 /// The pairs of one chunk of particles. Buffers grow geometrically and are kept.
@@ -42,22 +58,26 @@ pub struct PairChunk<E> {
     pub start: Vec<u32>,
     /// Neighbours, block by block.
     pub ids: Lines<u32>,
-    /// V_b W'/r of each.
+    /// W'/r of each, without its unit; nothing where the volume does not stand in the records.
+    pub slope: Lines<f32>,
+    /// V_b W'/r of each; nothing where the volume stands in the records.
     pub w: Lines<E>,
-    /// 1/r of each.
-    pub over_r: Lines<f32>,
+    /// h/r of each.
+    pub over_q: Lines<f32>,
     /// Pairs, without the fill.
     pub pairs: u64,
     /// A particle with the fewest neighbours, and how many.
     pub loneliest: (u32, u32),
-    /// Squared distances of the neighbours of one particle while they are found, m^2.
-    pub r2: Vec<f64>,
+    /// (r/h)^2 of the neighbours of one particle while they are found.
+    pub q2: Vec<f32>,
 }
 
 impl<E> Default for PairChunk<E> {
     fn default() -> Self {
-        let (ids, w, over_r) = (Lines::default(), Lines::default(), Lines::default());
-        Self { start: Vec::new(), ids, w, over_r, pairs: 0, loneliest: (0, u32::MAX), r2: Vec::new() }
+        let (ids, w) = (Lines::default(), Lines::default());
+        let (slope, over_q) = (Lines::default(), Lines::default());
+        let loneliest = (0, u32::MAX);
+        Self { start: Vec::new(), ids, slope, w, over_q, pairs: 0, loneliest, q2: Vec::new() }
     }
 }
 
@@ -70,42 +90,53 @@ pub struct PairList<E, const D: usize> {
     places: Vec<E>,
     /// Numbers from one column to the next.
     column: usize,
+    units: Units,
+}
+
+/// What turns the numbers of a list and of places into metres.
+#[derive(Clone, Copy, Debug, Default)]
+struct Units {
     /// A step of the fine grid, m.
-    unit: f64,
+    step: f64,
+    /// The same over the smoothing length.
+    step_over_h: f64,
+    /// What makes W'/r of a slope, m^-(D+2).
+    steepness: f64,
 }
 
 impl<E, const D: usize> Default for PairList<E, D> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), places: Vec::new(), column: 0, unit: 1.0 }
+        Self { chunks: Vec::new(), places: Vec::new(), column: 0, units: Units::default() }
     }
 }
 
 impl<E: Plain> PairChunk<E> {
-    /// Makes room for so many neighbours in all, and so many of one particle.
+    /// Makes room for so many neighbours in all, and so many of one particle. `apart`: see [`volume_apart`].
     #[inline]
-    pub fn room(&mut self, all: usize, one: usize) {
+    pub fn room(&mut self, (all, one): (usize, usize), apart: bool) {
         if self.ids.len() < all {
             let room = all + all / 4;
             self.ids.resize(room);
-            self.w.resize(room);
-            self.over_r.resize(room);
+            self.over_q.resize(room);
+            if apart { self.slope.resize(room) } else { self.w.resize(room) }
         }
-        if self.r2.len() < one {
-            self.r2.resize(one + one / 4, 0.0);
+        if self.q2.len() < one {
+            self.q2.resize(one + one / 4, 0.0);
         }
     }
 }
 
 impl<E: Element + Plain, const D: usize> PairList<E, D> {
-    /// Prepares for particles at `x` and a kernel of this support (m): chunks and places.
-    pub fn prepare(&mut self, x: [&[f64]; D], support: f64) {
+    /// Prepares for particles at `x` and a kernel: chunks and places.
+    pub fn prepare(&mut self, x: [&[f64]; D], kernel: &Kernel) {
         let len = x[0].len();
-        self.unit = support / STEPS;
+        let step = kernel.support() / STEPS;
+        self.units = Units { step, step_over_h: step / kernel.h(), steepness: kernel.steepness() };
         self.chunks.resize_with(len.div_ceil(CHUNK), PairChunk::default);
         self.column = len + MOST_LANES;
         self.places.resize(self.column * place_words::<E, D>(), E::default());
-        let per_metre = 1.0 / self.unit;
-        let steps = |x: f64| (x * per_metre).round() as i64 as u32;
+        let per_metre = 1.0 / step;
+        let steps = |x: f64| floor(x * per_metre + 0.5) as u32;
         for (word, column) in self.places.chunks_exact_mut(self.column).enumerate() {
             let axes = &x[word * E::COORDINATES..D.min((word + 1) * E::COORDINATES)];
             column[..len].par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, places)| {
@@ -123,6 +154,13 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
     /// The columns of places.
     pub fn places(&mut self) -> impl Iterator<Item = *mut E> {
         self.places.chunks_exact_mut(self.column.max(1)).map(|column| column.as_mut_ptr())
+    }
+
+    /// The coordinates of a particle on the fine grid.
+    #[inline(always)]
+    pub fn place(&self, a: usize) -> [u32; D] {
+        let word = |axis: usize| self.places[axis / E::COORDINATES * self.column + a];
+        std::array::from_fn(|axis| word(axis).coordinate(axis % E::COORDINATES))
     }
 
     /// Pairs, each counted from both sides.
@@ -147,14 +185,14 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
 #[derive(Clone, Copy)]
 pub struct Weights<'a, E, const D: usize> {
     chunk: &'a PairChunk<E>,
-    unit: f64,
+    units: Units,
 }
 
 impl<E: Element + Plain, const D: usize> PairList<E, D> {
     /// The weights of a chunk.
     #[inline(always)]
     pub fn weights(&self, chunk: usize) -> Weights<'_, E, D> {
-        Weights { chunk: &self.chunks[chunk], unit: self.unit }
+        Weights { chunk: &self.chunks[chunk], units: self.units }
     }
 }
 
@@ -170,36 +208,59 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
     pub fn ids<V: Lanes>(&self, block: usize) -> &'a [u32] {
         let first = block * V::N;
         prefetch(self.chunk.ids.as_ptr().wrapping_add(first + AHEAD * V::N));
-        prefetch(self.chunk.w.as_ptr().wrapping_add(first + AHEAD * V::N));
         &self.chunk.ids[first..first + V::N]
     }
 
-    /// The pairs of a block, with their directions if wanted. `place` holds the places of the neighbours, `own` that of the particle.
+    /// V_b W'/r of the pairs from `first` on. `tail` are the numbers of the neighbours behind what the pass reads.
+    #[inline(always)]
+    fn w<V: Lanes<E = E>>(&self, first: usize, tail: &[V]) -> V {
+        if volume_apart::<E, D>() {
+            debug_assert!(first + V::N <= self.chunk.slope.len());
+            // SAFETY: `slope` is as long as `ids`, and `ids` found this block in it.
+            let slope = unsafe { self.chunk.slope.as_ptr().add(first) };
+            prefetch(slope.wrapping_add(AHEAD * V::N));
+            // SAFETY: as above.
+            let slope = unsafe { V::load_single(slope) };
+            slope * tail[place_words::<E, D>()] * V::of(self.units.steepness)
+        } else {
+            debug_assert!(first + V::N <= self.chunk.w.len());
+            // SAFETY: `w` is as long as `ids`, and `ids` found this block in it.
+            let w = unsafe { self.chunk.w.as_ptr().add(first) };
+            prefetch(w.wrapping_add(AHEAD * V::N));
+            // SAFETY: as above.
+            unsafe { V::load(w) }
+        }
+    }
+
+    /// h/r of the pairs from `first` on.
+    #[inline(always)]
+    fn over_q<V: Lanes<E = E>>(&self, first: usize) -> V {
+        debug_assert!(first + V::N <= self.chunk.over_q.len());
+        // SAFETY: `over_q` is as long as `ids`, and `ids` found this block in it.
+        let over_q = unsafe { self.chunk.over_q.as_ptr().add(first) };
+        prefetch(over_q.wrapping_add(AHEAD * V::N));
+        // SAFETY: as above.
+        unsafe { V::load_single(over_q) }
+    }
+
+    /// The pairs of a block, with their directions if wanted. `tail` are the numbers of the neighbours behind what the pass reads, `own` is the
+    /// place of the particle.
     #[inline(always)]
     pub fn pair<V: Lanes<E = E>>(
         &self,
         (block, directed): (usize, bool),
         own: [u32; D],
-        place: &[V],
+        tail: &[V],
     ) -> Pair<V, D, ALL_WEIGHTS> {
-        let (first, unit) = (block * V::N, V::of(self.unit));
-        debug_assert!(first + V::N <= self.chunk.w.len() && self.chunk.w.len() <= self.chunk.over_r.len());
-        // SAFETY: `w` and `over_r` are as long as `ids`, and `ids` found this block in it.
-        let (w, over_r) = unsafe {
-            let over_r = self.chunk.over_r.as_ptr().add(first);
-            let over_r = if directed {
-                prefetch(over_r.wrapping_add(AHEAD * V::N));
-                V::load_single(over_r)
-            } else {
-                V::zero()
-            };
-            (V::load(self.chunk.w.as_ptr().add(first)), over_r)
-        };
-        let mut x = Vector::zero();
+        let first = block * V::N;
+        let mut steps = Vector::zero();
         for axis in 0..D {
-            let steps = place[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
-            x.0[axis] = steps * unit;
+            steps.0[axis] = tail[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
         }
-        Pair { grad_w: x.times(w), w, e: x.times(over_r), x }
+        let w = self.w(first, tail);
+        let over_r =
+            if directed { self.over_q::<V>(first) * V::of(self.units.step_over_h) } else { V::zero() };
+        let x = steps.times(V::of(self.units.step));
+        Pair { grad_w: steps.times(w * V::of(self.units.step)), w, e: steps.times(over_r), x }
     }
 }

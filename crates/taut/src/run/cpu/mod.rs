@@ -6,9 +6,9 @@
 
 mod homes;
 mod kit;
-mod lines;
 mod list;
 mod places;
+mod slots;
 mod stencil;
 mod store;
 mod walk;
@@ -18,13 +18,14 @@ pub use kit::{Double, InstructionSet, Precision, Single};
 use super::{Among, Numbers, Relist, Run};
 use crate::field::{Quantity, Record};
 use crate::neighbours::{CellGrid, Lattice, SearchError};
-use crate::particles::Particles;
+use crate::particles::{Lines, Particles};
 use crate::pass::{Now, PairSum, Reduce, Update};
 use homes::Homes;
-use lines::Lines;
+
 use list::PairList;
-use places::{PairPlaces, Shared};
+use places::{Fetching, PairPlaces, Shared};
 use rayon::prelude::*;
+use slots::Slots;
 use std::marker::PhantomData;
 use std::sync::atomic::AtomicU64;
 use stencil::Stencil;
@@ -40,6 +41,7 @@ pub struct Cpu<const D: usize, P: Precision = Double> {
     store: Store<D, P>,
     set: InstructionSet,
     grid: CellGrid<D>,
+    slots: Slots<D>,
     list: PairList<P::E, D>,
     stencil: Option<Stencil<D>>,
     homes: Homes,
@@ -72,6 +74,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
             store: Store::new(particles),
             set,
             grid: CellGrid::new(),
+            slots: Slots::default(),
             list: PairList::default(),
             stencil: None,
             homes: Homes::default(),
@@ -111,16 +114,19 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     /// Makes the list of pairs.
     fn search(&mut self, how: &Relist) -> Result<(), SearchError> {
         let x = self.store.particles().vector(how.positions);
-        self.grid.build(x, how.kernel.support())?;
-        self.list.prepare(x, how.kernel.support());
+        self.grid.bin(x, how.kernel.support())?;
+        self.list.prepare(x, &how.kernel);
         let mut chunks = std::mem::take(&mut self.list.chunks);
-        let pairs = AtomicU64::new(0);
+        let (list, pairs) = (&self.list, AtomicU64::new(0));
+        self.slots.fill(self.grid.ids(), |a| list.place(a));
         let listing = walk::Listing {
             grid: &self.grid,
             x,
             volume: self.store.particles().column(Quantity::Volume, 0),
             same: (how.among == Among::SameBody && !self.one_body()).then_some(self.bodies.as_slice()),
             kernel: &how.kernel,
+            slots: &self.slots,
+            list,
             chunks: Shared::new(&mut chunks),
             pairs: &pairs,
         };
@@ -134,8 +140,8 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn lattice(&self, how: &Relist) -> Result<Option<Stencil<D>>, SearchError> {
         let particles = self.store.particles();
         let volume = particles.column(Quantity::Volume, 0);
-        let equal = volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
-        if how.positions != Quantity::ReferencePosition || !equal || !self.one_body() {
+        let equal = || volume.iter().all(|v| (v / volume[0] - 1.0).abs() < 1e-12);
+        if how.positions != Quantity::ReferencePosition || !self.one_body() || !equal() {
             return Ok(None);
         }
         let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
@@ -148,6 +154,9 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
         let mut own = self.store.pair_places::<S::Reads>();
         self.list.places().for_each(|column| own.push(column));
+        if list::volume_apart::<P::E, D>() {
+            own.push(self.store.pair_column(Quantity::Volume, 0));
+        }
         let (stride, len) = (walk::stride::<S::Reads, P::E, D>(), self.len());
         if self.records.len() < len * stride {
             self.records.resize(len * stride);
@@ -223,9 +232,11 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
 
     fn relist(&mut self, how: &Relist) -> Result<(), SearchError> {
         self.store.settle(Quantity::Volume);
-        let particles = self.store.particles();
         self.bodies.clear();
-        self.bodies.extend(particles.column(Quantity::Body, 0).iter().map(|&b| b as u32));
+        if how.among == Among::SameBody || how.positions == Quantity::ReferencePosition {
+            let bodies = self.store.particles().column(Quantity::Body, 0);
+            self.bodies.extend(bodies.iter().map(|&b| b as u32));
+        }
         self.stencil = self.lattice(how)?;
         self.homes.forget();
         if self.stencil.is_none() { self.search(how) } else { Ok(()) }
@@ -249,7 +260,8 @@ impl<const D: usize, P: Precision> Run<D> for Cpu<D, P> {
         let reads = self.store.places::<U::Reads>(|field| homes.is_some_and(|h| h.shares(field)));
         let writes = self.store.places::<U::Writes>(|_| false);
         let updating = Updating { then, reads: &reads, writes: &writes, now };
-        let after = Then::new::<P, U, D>(&updating, self.set);
+        let fetching = Fetching::of([&reads, &writes]);
+        let after = Then::new::<P, U, D>(&updating, &fetching, self.set);
         match self.stencil.take() {
             Some(stencil) => {
                 self.stencilled(&stencil, (sum, after, U::Writes::FIELDS), now);

@@ -1,7 +1,7 @@
 //! Where the numbers of a record stand in memory, so that chunks can be read and written from several threads.
 
 use crate::field::{Quantity, Record, Sink, Source};
-use crate::math::{Element, Lanes, MOST_LANES};
+use crate::math::{Element, Lanes, MOST_LANES, prefetch};
 use crate::run::MAX_WORDS;
 
 /// A pointer that threads share. Sound because every thread writes its own chunk only, and what a pair sum reads of others is not
@@ -79,6 +79,14 @@ impl<E: Element> PairPlaces<E> {
         self.len += 1;
     }
 
+    /// Asks for the numbers of particle `a`, and of those in the same cache lines.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize) {
+        for column in &self.columns[..self.len] {
+            prefetch(column.0.wrapping_add(a));
+        }
+    }
+
     /// How many numbers.
     pub fn len(&self) -> usize {
         self.len
@@ -144,6 +152,7 @@ pub struct Column {
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
     columns: [Column; MAX_WORDS],
+    len: usize,
 }
 
 // SAFETY: as `Shared`.
@@ -164,7 +173,48 @@ impl Places {
                 k += 1;
             }
         }
-        Self { columns }
+        Self { columns, len: k }
+    }
+}
+
+/// Columns that are asked for ahead of time.
+#[derive(Debug)]
+pub struct Fetching {
+    /// Where each starts, and how long a number is.
+    columns: [(*const u8, usize); 4 * MAX_WORDS],
+    len: usize,
+}
+
+// SAFETY: addresses of what is only asked for, never read.
+unsafe impl Sync for Fetching {}
+
+impl Fetching {
+    /// The columns of these records, single ones and double ones, but those that are read at the home of a block: they are near already.
+    pub fn of(records: [&Places; 2]) -> Self {
+        let mut new = Self { columns: [(std::ptr::null(), 0); 4 * MAX_WORDS], len: 0 };
+        let columns = records.iter().flat_map(|record| &record.columns[..record.len]);
+        for column in columns.filter(|column| !column.shared) {
+            let double = (column.double.cast_const().cast::<u8>(), size_of::<f64>());
+            let single = (column.single.cast_const().cast::<u8>(), size_of::<f32>());
+            for one in [double, single] {
+                if !one.0.is_null() {
+                    new.columns[new.len] = one;
+                    new.len += 1;
+                }
+            }
+        }
+        new
+    }
+
+    /// Asks for the numbers of particle `a`, and of those in the same cache lines, in part `part` of `parts` of the columns.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize, (part, parts): (usize, usize)) {
+        let mut k = part;
+        while k < self.len {
+            let (start, size) = self.columns[k];
+            prefetch(start.wrapping_add(a * size));
+            k += parts;
+        }
     }
 }
 

@@ -70,6 +70,8 @@ pub struct Stencil<const D: usize> {
     programs: Vec<Lists>,
     /// All blocks, in order.
     pub blocks: Vec<Block>,
+    /// How far ahead of a particle its last neighbour is stored, at most.
+    pub reach: usize,
     /// Most particles of a block.
     lanes: usize,
     pairs: u64,
@@ -79,12 +81,13 @@ impl<const D: usize> Stencil<D> {
     /// The stencil of particles stored row by row along the long axis of the lattice, all of the same volume.
     pub fn new(lattice: &Lattice<D>, volume: f64, kernel: &Kernel, lanes: usize) -> Self {
         let (codes, entries, programs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut new = Self { codes, entries, programs, blocks: Vec::new(), lanes, pairs: 0 };
+        let mut new = Self { codes, entries, programs, blocks: Vec::new(), reach: 0, lanes, pairs: 0 };
         let offsets = new.book(lattice, volume, kernel);
         let rows = Rows::new(lattice);
         let mut known: HashMap<(usize, Vec<Entry>), u32> = HashMap::new();
         for (first, active) in rows.blocks(new.lanes) {
             let entries = rows.entries((first, active), &offsets);
+            new.reach = entries.iter().map(|e| e.delta.max(0) as usize).fold(new.reach, usize::max);
             let program = match known.get(&(active, entries.clone())) {
                 Some(&program) => program,
                 None => {

@@ -4,7 +4,7 @@ use super::kit::Precision;
 use super::places::{Column, PairPlaces, Places};
 use crate::field::{Quantity, Record};
 use crate::math::Element;
-use crate::particles::{GUARD, Particles, stride};
+use crate::particles::{GUARD, Lines, Particles, stride};
 use crate::run::Numbers;
 use std::any::TypeId;
 use std::marker::PhantomData;
@@ -18,7 +18,7 @@ use std::marker::PhantomData;
 #[derive(Debug)]
 pub struct Store<const D: usize, P> {
     particles: Particles<D>,
-    single: Vec<f32>,
+    single: Lines<f32>,
     /// Whether the single column is in use, by column.
     used: Vec<bool>,
     precision: PhantomData<P>,
@@ -27,7 +27,7 @@ pub struct Store<const D: usize, P> {
 impl<const D: usize, P: Precision> Store<D, P> {
     /// Takes over particles.
     pub fn new(particles: Particles<D>) -> Self {
-        Self { particles, single: Vec::new(), used: Vec::new(), precision: PhantomData }
+        Self { particles, single: Lines::default(), used: Vec::new(), precision: PhantomData }
     }
 
     pub fn particles(&self) -> &Particles<D> {
@@ -86,7 +86,7 @@ impl<const D: usize, P: Precision> Store<D, P> {
         }
         let room = first + stride(len);
         if self.single.len() < room {
-            self.single.resize(room, 0.0);
+            self.single.resize(room);
         }
         if !self.used[column] {
             self.used[column] = true;
@@ -142,7 +142,7 @@ impl<const D: usize, P: Precision> Store<D, P> {
         if P::MIXED {
             let all = GUARD + self.particles.columns() * stride(self.particles.len());
             if self.single.len() < all + GUARD {
-                self.single.resize(all + GUARD, 0.0);
+                self.single.resize(all + GUARD);
             }
         }
     }

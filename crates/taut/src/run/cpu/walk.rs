@@ -13,12 +13,11 @@ pub use points::{Each, Fold};
 pub use stencilled::Stencilled;
 
 use super::kit::{InstructionSet, Kit, Precision};
-use super::places::{Places, Some, Span};
+use super::places::{Fetching, Places, Some, Span};
 use crate::field::{Record, Sink, Source};
 use crate::math::{Lanes, MOST_LANES};
 use crate::pass::{Now, Update};
 use crate::run::MAX_WORDS;
-use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
 /// A run of consecutive particles (or blocks of them) that one thread works on.
@@ -45,9 +44,9 @@ pub fn base<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
 /// The loop with AVX2 lanes: everything below is inlined here and compiled for AVX2.
 ///
 /// # Safety
-/// The machine has AVX2 and FMA.
+/// The machine has what AVX2 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]
 pub unsafe fn avx2<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
@@ -55,9 +54,9 @@ pub unsafe fn avx2<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &C
 /// The loop with AVX-512 lanes.
 ///
 /// # Safety
-/// The machine has AVX-512 F and DQ, AVX2 and FMA.
+/// The machine has what AVX-512 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]
 pub unsafe fn avx512<E, K: Kit<Pair: Lanes<E = E>>>(walk: &impl Walk<E>, chunk: &Chunk) {
     walk.chunk::<K>(chunk);
 }
@@ -182,9 +181,9 @@ impl<U> Updating<'_, U> {
 /// one for a block of particles.
 #[derive(Clone, Copy)]
 pub struct Then<'a> {
+    fetching: &'a Fetching,
     updating: *const (),
     call: unsafe fn(*const (), Span, &Sums),
-    lives: PhantomData<&'a ()>,
 }
 
 // SAFETY: what is behind the pointer is an `Updating`, which may be shared.
@@ -196,6 +195,7 @@ impl<'a> Then<'a> {
     /// The update in the lanes of an instruction set.
     pub fn new<P: Precision, U: Update<D>, const D: usize>(
         updating: &'a Updating<'a, U>,
+        fetching: &'a Fetching,
         set: InstructionSet,
     ) -> Self {
         let call = match set {
@@ -207,7 +207,14 @@ impl<'a> Then<'a> {
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx512 => call_avx512::<P::Avx512, U, D>,
         };
-        Self { updating: std::ptr::from_ref(updating).cast(), call, lives: PhantomData }
+        Self { fetching, updating: std::ptr::from_ref(updating).cast(), call }
+    }
+
+    /// Asks for what an update of particle `a` reads and writes, a part of it at a time: these are dozens of columns, too many for the
+    /// hardware to see them coming.
+    #[inline(always)]
+    pub fn fetch(&self, a: usize, part: (usize, usize)) {
+        self.fetching.fetch(a, part);
     }
 
     /// Updates particles whose sums are in `sums`.
@@ -226,18 +233,18 @@ unsafe fn call_base<K: Kit, U: Update<D>, const D: usize>(updating: *const (), s
 }
 
 /// # Safety
-/// As [`call_base`], and the machine has AVX2 and FMA.
+/// As [`call_base`], and the machine has what AVX2 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn call_avx2<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
     unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }
 }
 
 /// # Safety
-/// As [`call_base`], and the machine has AVX-512 F and DQ, AVX2 and FMA.
+/// As [`call_base`], and the machine has what AVX-512 lanes need.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]
 unsafe fn call_avx512<K: Kit, U: Update<D>, const D: usize>(updating: *const (), span: Span, sums: &Sums) {
     // SAFETY: the caller's promise.
     unsafe { (*updating.cast::<Updating<'_, U>>()).at::<K, D>(span, sums) }

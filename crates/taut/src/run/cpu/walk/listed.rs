@@ -2,19 +2,19 @@
 
 use super::{Chunk, Spread, Sums, Then, Walk};
 use crate::field::{Record, Source};
-use crate::math::{Element, Lanes};
+use crate::math::{Element, Lanes, prefetch};
+use crate::particles::Plain;
 use crate::pass::{Now, PairSum};
 use crate::run::MAX_WORDS;
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::lines::Plain;
-use crate::run::cpu::list::{PairList, Weights, place_words};
+use crate::run::cpu::list::{PairList, Weights, tail_words};
 use crate::run::cpu::places::Span;
 
 /// A sum over neighbours and the update that follows it.
 pub struct Listed<'a, P, E, const D: usize> {
     pub sum: &'a P,
     pub then: Then<'a>,
-    /// Packed records, [`stride`] numbers for each particle; the place follows what the pass reads.
+    /// Packed records, [`stride`] numbers for each particle; place and volume follow what the pass reads.
     pub records: &'a [E],
     pub list: &'a PairList<E, D>,
     pub now: Now<f64>,
@@ -22,8 +22,11 @@ pub struct Listed<'a, P, E, const D: usize> {
 
 /// Numbers from one packed record of `R` to the next.
 pub const fn stride<R: Record<D>, E: Element, const D: usize>() -> usize {
-    (R::WORDS + place_words::<E, D>()).next_multiple_of(4)
+    (R::WORDS + tail_words::<E, D>()).next_multiple_of(4)
 }
+
+/// Particles between the one at work and the one whose record is asked for.
+const AHEAD: usize = 2048;
 
 /// The words of the neighbours, lane by lane.
 struct Words<V>([V; MAX_WORDS]);
@@ -86,6 +89,14 @@ impl<P: PairSum<D>, E: Element + Plain, const D: usize> Walk<E> for Listed<'_, P
             let count = (chunk.end - first).min(K::Point::N);
             for lane in 0..count {
                 rows.lane = lane;
+                self.then.fetch(first + K::Point::N, (lane, K::Point::N));
+                for line in (0..stride::<P::Reads, E, D>() * size_of::<E>()).step_by(64) {
+                    let at = self
+                        .records
+                        .as_ptr()
+                        .wrapping_add((first + lane + AHEAD) * stride::<P::Reads, E, D>());
+                    prefetch(at.wrapping_byte_add(line));
+                }
                 self.gather((first + lane, first + lane - chunk.first), &weights, &mut rows);
             }
             rows.total(P::Adds::WORDS, (count, K::Point::N), &mut sums);

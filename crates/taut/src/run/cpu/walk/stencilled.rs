@@ -85,6 +85,8 @@ impl<P: PairSum<D>, E: Element, const D: usize> Walk<E> for Stencilled<'_, P, E,
         let mut sums = Sums::new();
         for k in chunk.first..chunk.end {
             let block = &self.stencil.blocks[k];
+            self.then.fetch(block.first as usize + 2 * K::Pair::N, (0, 1));
+            self.own.fetch(block.first as usize + self.stencil.reach + K::Pair::N);
             let sum = self.gather(block, &now);
             P::Adds::write(sum, &mut Together(&mut sums));
             let home = self.homes.get(k).map_or(block.first, |&home| home) as usize;

@@ -10,7 +10,7 @@ use std::ops::{Deref, DerefMut};
 struct Line([u8; 64]);
 
 /// A row of numbers of a type whose bits may all be zero.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Lines<E> {
     lines: Vec<Line>,
     len: usize,
