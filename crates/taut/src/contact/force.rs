@@ -58,7 +58,8 @@ pub struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// x_ab and |x_ab| of every pair of a facing that is within reach, with b and the facing of b.
+    /// x_ab and |x_ab| of every pair of a facing that is within reach, with b and the facing of b. Particles at the same place have no
+    /// direction to push each other.
     pub fn pairs<'s>(
         &'s self,
         facing: &'s Facing,
@@ -69,7 +70,12 @@ impl Scene<'_> {
         partners.iter().filter_map(move |partner| {
             let apart = own - x[partner.b as usize];
             let r = apart.norm_squared().sqrt();
-            (r < self.law.support()).then_some((partner.b as usize, partner.mirror as usize, apart, r))
+            (0.0 < r && r < self.law.support()).then_some((
+                partner.b as usize,
+                partner.mirror as usize,
+                apart,
+                r,
+            ))
         })
     }
 
