@@ -1,8 +1,9 @@
 //! A case in plain words.
 
 use crate::{
-    Boundary, Case, Constraint, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind, March,
-    MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, VectorField,
+    Boundary, Case, Constraint, Course, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind,
+    March, MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, Tool,
+    VectorField,
 };
 use std::fmt::Write as _;
 
@@ -18,6 +19,8 @@ pub fn explain(case: &Case) -> String {
     let _ = writeln!(text, "{space}, with particles {} apart.", length(case.spacing));
     paragraph(&mut text, "Materials", case.materials.iter().map(|m| material(case, &m.name)));
     paragraph(&mut text, "Bodies", (0..case.bodies.len()).map(|i| body(case, i)));
+    paragraph(&mut text, "Tools", case.tools.iter().map(|t| tool(case, t)));
+    paragraph(&mut text, "Contact", touching(case).into_iter());
     let held = case.boundaries.iter().map(|b| boundary(case, b));
     let pulled = case.gravity.iter().map(|g| {
         let on = on(case, g.body, g.region.as_ref());
@@ -69,8 +72,8 @@ fn body(case: &Case, index: usize) -> String {
     let body = &case.bodies[index];
     let scheme = &body.scheme;
     let family = match scheme.formulation.family() {
-        Family::Total => "total Lagrangian: it does not touch other bodies",
-        Family::Updated => "updated Lagrangian: it touches other such bodies",
+        Family::Total => "total Lagrangian",
+        Family::Updated => "updated Lagrangian",
     };
     let fill = match body.fill {
         Fill::Lattice { .. } => "on a lattice",
@@ -94,6 +97,41 @@ fn body(case: &Case, index: usize) -> String {
         scheme.formulation.name(),
         scheme.smoothing
     )
+}
+
+fn tool(case: &Case, tool: &Tool) -> String {
+    let moves = match &tool.course {
+        Course::Displacement(field) | Course::Velocity(field) if still(field) => "stays".to_string(),
+        Course::Displacement(field) => format!("is moved by {} m", vector(field, case.dimension)),
+        Course::Velocity(field) => format!("moves at {} m/s", vector(field, case.dimension)),
+    };
+    let turns = tool
+        .turn
+        .as_ref()
+        .map_or(String::new(), |turn| format!(" and is turned by {} rad", component(&turn.angle)));
+    format!("{} is rigid: {}, {}; it {moves}{turns}", tool.name, shape(&tool.shape), size(case, &tool.shape))
+}
+
+/// Who touches whom.
+fn touching(case: &Case) -> Vec<String> {
+    let said = case.contacts.iter().map(|contact| {
+        let [one, other] = contact.bodies.map(|body| case.name_of(body));
+        match contact.friction {
+            None => format!("{one} and {other} pass through each other"),
+            Some(mu) if one == other => format!("{one} touches itself, {}", rubbing(mu)),
+            Some(mu) => format!("{one} and {other} touch, {}", rubbing(mu)),
+        }
+    });
+    let mut lines: Vec<String> = said.collect();
+    if case.bodies.len() + case.tools.len() > 1 {
+        let who = if lines.is_empty() { "all bodies and tools" } else { "all others" };
+        lines.push(format!("{who} touch each other without friction"));
+    }
+    lines
+}
+
+fn rubbing(friction: f64) -> String {
+    if friction > 0.0 { format!("with friction {}", short(friction)) } else { "without friction".to_string() }
 }
 
 /// A load in words.
@@ -231,6 +269,8 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Quantity::Displacement => "displacement",
         Quantity::Position => "position",
         Quantity::Velocity => "velocity",
+        Quantity::ContactForce => "contact force",
+        Quantity::ContactMoment => "moment of the contact forces about the origin",
         Quantity::Reaction => "force",
         Quantity::Moment => "moment about the origin",
     };
@@ -239,6 +279,10 @@ fn probe(case: &Case, probe: &Probe) -> String {
             format!("the point {:?} m of {}", &at[..case.dimension], case.bodies[probe.body].name)
         }
         Spot::Region(region) => format!("the mean over {}", on(case, Some(probe.body), Some(region))),
+        Spot::Contact { by: None } => format!("{}, by all that touch it", case.name_of(probe.body)),
+        Spot::Contact { by: Some(by) } => {
+            format!("{}, by {}", case.name_of(probe.body), case.name_of(*by))
+        }
         Spot::Boundary(index) => format!("boundary {} on what it holds", case.boundaries[*index].name),
     };
     let often =
@@ -248,9 +292,10 @@ fn probe(case: &Case, probe: &Probe) -> String {
 
 fn measure(case: &Case, kind: &MeasureKind) -> String {
     match kind {
-        MeasureKind::Probe { probe, axis, feature } => {
+        MeasureKind::Probe { probe, axis, feature, over } => {
             let axis = ["x", "y", "z"][axis.index()];
-            featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name))
+            let what = featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name));
+            over.map_or(what.clone(), |over| format!("{what}, over {}", short(over)))
         }
         MeasureKind::Turns { probe, axis, feature } => {
             let axis = ["x", "y", "z"][axis.index()];
@@ -259,6 +304,9 @@ fn measure(case: &Case, kind: &MeasureKind) -> String {
         }
         MeasureKind::KineticRatio => "kinetic energy at the end over that at the start".into(),
         MeasureKind::ContactStart => "when bodies first touch".into(),
+        MeasureKind::VolumeRatio { body } => {
+            format!("volume of {} at the end over that at rest", case.bodies[*body].name)
+        }
         MeasureKind::ReboundSpeed { body } => format!("speed of {} at the end", case.bodies[*body].name),
     }
 }
@@ -267,6 +315,7 @@ fn featured(feature: &Feature, of: &str) -> String {
     match feature {
         Feature::FirstCrossing => format!("when {of} first crosses zero"),
         Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
+        Feature::Duration => format!("for how long {of} is larger than half of its largest value"),
         Feature::Maximum => format!("the largest {of}"),
         Feature::Minimum => format!("the smallest {of}"),
         Feature::TurningPoint { extremum, index, .. } => {

@@ -5,7 +5,7 @@
 
 mod samples;
 
-use samples::{COLUMN, PLATE, RINGS, parse, parse_set};
+use samples::{COLUMN, PLATE, PUNCH, RINGS, parse, parse_set};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -99,6 +99,23 @@ const WRONG: &[Wrong] = &[
     (PLATE, "fixed = true", "fixed = true\nfix = [\"x\"]"),
     (RINGS, "name = \"right\"", "name = \"left\""),
     (RINGS, "velocity = [\"v0\", 0]", "velocity = [\"v0*t\", 0]"),
+    // Tools and contact.
+    (PUNCH, "displacement = [0, \"-0.1*t\"]", "displacement = [0, \"-0.1*x\"]"),
+    (PUNCH, "displacement = [0, \"-0.1*t\"]", "displacement = [0, 0]\nvelocity = [0, 0]"),
+    (PUNCH, "displacement = [0, \"-0.1*t\"]", "velocity = [0, \"1/t\"]"),
+    (PUNCH, "angle = \"2*pi*t\"\n", ""),
+    (PUNCH, "name = \"upper\"", "name = \"strip\""),
+    (PUNCH, "[\"strip\", \"upper\"]", "[\"strip\", \"uper\"]"),
+    (PUNCH, "[\"strip\", \"upper\"]", "\"strip\""),
+    (PUNCH, "[\"strip\", \"upper\"]", "[\"roller\", \"upper\"]"),
+    (PUNCH, "[\"strip\", \"upper\"]", "[\"upper\"]"),
+    (PUNCH, "[\"strip\", \"roller\"]\nignore = true", "[\"upper\", \"strip\"]"),
+    (PUNCH, "friction = 0.3", "friction = -0.3"),
+    (PUNCH, "ignore = true", "ignore = true\nfriction = 1"),
+    (PUNCH, "by = \"strip\"", "at = [0, 0]"),
+    (PUNCH, "quantity = \"contact-force\"\nbody = \"upper\"", "body = \"strip\"\nat = [0, 0]"),
+    (PUNCH, "component = \"z\"\nover = \"2 N m\"", "component = \"z\"\nover = \"2 N\""),
+    (RINGS, "[time]", "[[contact]]\nbodies = [\"left\", \"right\"]\n\n[time]"),
 ];
 
 /// Wrong overrides of the rings.

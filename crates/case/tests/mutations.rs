@@ -28,6 +28,14 @@ name = "one"
 material = "rubber"
 shape = "some"
 
+[[tool]]
+name = "punch"
+shape = "some"
+angle = "t"
+
+[[contact]]
+bodies = ["one", "punch"]
+
 [[boundary]]
 region = "some"
 fixed = true
@@ -121,12 +129,14 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
                 wrong.pop();
             }
         }
+        Kind::NamesOf(_) => wrong.extend(["1", "[]", "[1]", "{}", "\"one\"", "[\"nobody\"]", "[\"one\"]"]),
         Kind::Flag => wrong.extend(["1", "\"true\"", "[]", "{}"]),
         Kind::True => wrong.extend(["false", "1", "\"true\"", "[]", "{}"]),
         Kind::OneOf(_) | Kind::Count => wrong.extend(["0", "-1", "1.5", "\"2\"", "[2]", "true", "{}"]),
-        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) => {
+        Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) | Kind::AngleOfTime => {
             wrong.extend(["true", "[1]", "{}", "nan", "inf", "\"\"", "\"2 +\""])
         }
+        Kind::OfTime(_) => wrong.extend(["1", "[1]", "[\"x\", 0]", "[0, \"1/t\"]", "[true, 1]", "{}"]),
         Kind::Vector(_) | Kind::Pair(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
             wrong.extend([
                 "1",
@@ -167,7 +177,13 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
 fn wrong_units(kind: &Kind) -> Vec<&'static str> {
     match kind {
         Kind::Number(..) | Kind::OfProbe | Kind::Scalar(_) => vec!["\"3 kg\"", "\"3 W\"", "\"3 lightyears\""],
-        Kind::Vector(_) | Kind::Pair(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
+        Kind::AngleOfTime => vec!["\"3 kg\"", "\"3 m\""],
+        Kind::Vector(_)
+        | Kind::Pair(_)
+        | Kind::Place(_)
+        | Kind::Field(_)
+        | Kind::FieldOrFree(_)
+        | Kind::OfTime(_) => {
             vec!["[\"3 kg\", 1]", "[1, \"3 W\"]", "[\"3 lightyears\", 1]"]
         }
         _ => Vec::new(),

@@ -3,7 +3,7 @@
 mod samples;
 
 use case::*;
-use samples::{COLUMN, PLATE, RINGS, parse, parse_set};
+use samples::{COLUMN, PLATE, PUNCH, RINGS, parse, parse_set};
 
 /// Total Lagrangian with this step and the defaults of the rest.
 fn marched(step: StepRule) -> March {
@@ -81,7 +81,10 @@ fn a_column_in_three_dimensions() {
     assert!(x.depends_on_time() && !z.depends_on_time());
     assert_eq!(x.eval([0.0; 3], 0.05), 0.1 * (20.0f64 * 0.05).sin());
     let low = Feature::TurningPoint { extremum: Extremum::Minimum, prominence: 0.3, index: 1 };
-    assert_eq!(case.measures[0].kind, MeasureKind::Probe { probe: 0, axis: Axis::Z, feature: low });
+    assert_eq!(
+        case.measures[0].kind,
+        MeasureKind::Probe { probe: 0, axis: Axis::Z, feature: low, over: None }
+    );
 }
 
 #[test]
@@ -213,6 +216,32 @@ fn the_text_as_run_says_the_same_without_overrides() {
             format!("{:?}", (&case.title, &case.parameters, bodies, case.time, &case.measures, &case.regions))
         };
         assert_eq!(show(&first), show(&second), "{}", first.case_text_as_run());
+    }
+}
+
+#[test]
+fn tools_and_contact() {
+    let case = parse(PUNCH).expect("right");
+    assert!(case.warnings.is_empty(), "{}", case.render_warnings(false));
+    let names: Vec<&str> = (0..4).map(|body| case.name_of(body)).collect();
+    assert_eq!(names, ["strip", "block", "upper", "roller"]);
+    let met: Vec<_> = case.contacts.iter().map(|c| (c.bodies, c.friction)).collect();
+    assert_eq!(met, [([0, 2], Some(0.3)), ([1, 1], Some(0.0)), ([0, 3], None)]);
+    assert_eq!(case.probes[0].spot, Spot::Contact { by: Some(0) });
+    assert_eq!((case.probes[0].body, case.probes[1].body), (2, 3));
+    let turn = case.tools[1].turn.as_ref().expect("it turns");
+    assert_eq!((turn.about, turn.axis), ([3e-3, -4.5e-3, 0.0], [0.0, 0.0, 1.0]));
+    assert!(
+        matches!(&case.tools[1].course, Course::Velocity(v) if v.eval([0.0; 3], 1.0) == [0.0, 0.01, 0.0])
+    );
+    let told = explain(&case);
+    for words in [
+        "upper is rigid",
+        "it moves at (0, 0.01) m/s and is turned by",
+        "block touches itself",
+        "all others touch",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
     }
 }
 

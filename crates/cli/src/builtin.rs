@@ -10,6 +10,12 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../cases/tl-plate.toml")),
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
     ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
+    ("tl-punch", include_str!("../../../cases/tl-punch.toml")),
+    ("contact-hertz", include_str!("../../../cases/contact-hertz.toml")),
+    ("contact-sphere", include_str!("../../../cases/contact-sphere.toml")),
+    ("contact-bars", include_str!("../../../cases/contact-bars.toml")),
+    ("contact-incline", include_str!("../../../cases/contact-incline.toml")),
+    ("contact-fold", include_str!("../../../cases/contact-fold.toml")),
     ("tl-pull-2d", include_str!("../../../cases/tl-pull-2d.toml")),
     ("tl-pull-3d", include_str!("../../../cases/tl-pull-3d.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
@@ -35,7 +41,6 @@ const CURVES: &[(&str, &str)] = &[
 
 /// Benchmarks of the papers that are not there yet.
 const LATER: &[&str] = &[
-    "tl-punch",
     "tl-stent",
     "ul-plate-3d",
     "ul-hollow-balls",

@@ -20,6 +20,9 @@ pub fn check(options: &TrialOptions) -> Result<(), Failure> {
             say!("              {across} particles across its thinnest part");
         }
     }
+    for tool in &case.tools {
+        say!("  tool {}: rigid", tool.name);
+    }
     print(&case, &e);
     for warning in &e.warnings {
         say!("  warning: {warning}");

@@ -32,10 +32,10 @@ pub enum Status {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Energy {
-    /// Kinetic and strain energy at the start.
+    /// Kinetic and strain energy, and that of contact, at the start.
     #[serde(deserialize_with = "nullable::number")]
     pub initial: f64,
-    /// Kinetic and strain energy at the end.
+    /// The same at the end.
     #[serde(rename = "final", deserialize_with = "nullable::number")]
     pub at_end: f64,
     /// Kinetic energy at the end.
@@ -44,6 +44,9 @@ pub struct Energy {
     /// Strain energy at the end.
     #[serde(deserialize_with = "nullable::number")]
     pub strain: f64,
+    /// Held by contact at the end.
+    #[serde(default, deserialize_with = "nullable::number")]
+    pub contact: f64,
     /// Taken out by viscosity and damping during the run.
     #[serde(deserialize_with = "nullable::number")]
     pub dissipated: f64,
@@ -56,7 +59,7 @@ pub struct Energy {
     /// The largest |residual| of all samples, over the largest energy that was put in: at the start and from outside.
     #[serde(default, deserialize_with = "nullable::number")]
     pub worst_residual: f64,
-    /// Samples, one with every frame and every measurement of disorder: (time, kinetic, strain, kinetic + strain).
+    /// Samples, one with every frame and every measurement of disorder: (time, kinetic, strain, kinetic + strain + contact).
     #[serde(default, deserialize_with = "nullable::energies")]
     pub history: Vec<[f64; 4]>,
 }

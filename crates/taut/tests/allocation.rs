@@ -9,7 +9,9 @@ use common::points::{block, stir};
 use common::{Clock, Form, Setup};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
+use taut::contact::{Contact, Meeting};
 use taut::formulation::Formulation;
+use taut::math::Vector;
 use taut::simulation::Simulation;
 
 /// The allocator of the system, counted.
@@ -92,6 +94,40 @@ fn updated<F: Formulation<2>>(form: F) {
     assert!(growth <= buffers, "{growth} calls for {buffers} buffers");
 }
 
+/// Two bodies that rub against each other, one on top of the other. New lists may ask: at most once for each of their buffers.
+fn contact() {
+    let setup = Setup::new(DP);
+    let bodies = [0, 1].map(|body: u32| {
+        let mut points = block([40, 30], DP);
+        for p in &mut points {
+            p.body = body;
+            p.x[1] += 30.2 * DP * f64::from(body);
+            p.v = Vector([0.02, 0.02]).times(setup.moduli.sound_speed() * (1.0 - 2.0 * f64::from(body)));
+        }
+        setup.body(Form::HourglassFree, &points)
+    });
+    let meeting = Meeting { bodies: [0, 1], stiffness: setup.moduli.bulk, friction: 0.3 };
+    let contact = Contact::new(&[meeting], DP, 2);
+    let mut simulation = Simulation::new(bodies.into(), vec![]).touching(Some(contact));
+    simulation.begin().expect("finite");
+    (0..20).for_each(|_| simulation.step().expect("stable"));
+    let lists = |simulation: &Simulation| simulation.contact().map_or(0, Contact::lists);
+    let first = lists(&simulation);
+    let mut growth = 0;
+    for step in 0..100 {
+        let before = lists(&simulation);
+        let calls = calls(|| simulation.step().expect("stable"));
+        if lists(&simulation) > before {
+            growth += calls;
+        } else {
+            assert_eq!(calls, 0, "step {step} without a new list");
+        }
+    }
+    assert!(simulation.totals().contact > 0.0 && lists(&simulation) > first, "they touch and move");
+    // Facings, partners, owners, chosen particles and their columns, lists of neighbours and what is staged, forces, springs; boxes each time.
+    assert!(growth < 20 + 2 * (lists(&simulation) - first), "{growth} calls");
+}
+
 /// One test, so that nothing else runs meanwhile; inside a pool of two threads, as a simulation runs.
 #[test]
 fn steps_ask_for_no_memory() {
@@ -101,6 +137,7 @@ fn steps_ask_for_no_memory() {
         assert_eq!(rayon::current_num_threads(), 2);
         total(Form::HourglassFree);
         total(Form::TotalNested);
+        contact();
         total(Form::Ganzenmueller);
         updated(Setup::new(DP).non_hourglass(2));
         updated(Setup::new(DP).updated_nested());

@@ -11,7 +11,8 @@ const LEAST: [f64; 2] = [1800.0, 2300.0];
 #[must_use]
 pub fn reckon(case: &Case) -> f64 {
     let dimension = if case.dimension == 2 { shapes::dimension::<2>() } else { shapes::dimension::<3>() };
-    case.bodies.iter().map(|b| geometry::reckon(&shapes::shape(&b.shape), case.spacing, dimension)).sum()
+    let shapes = case.bodies.iter().map(|b| &b.shape).chain(case.tools.iter().map(|tool| &tool.shape));
+    shapes.map(|shape| geometry::reckon(&shapes::shape(shape), case.spacing, dimension)).sum()
 }
 
 /// Memory that can be had, bytes; `None` where the system does not say.

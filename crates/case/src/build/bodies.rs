@@ -63,23 +63,33 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
     Ok(groups)
 }
 
-fn fill<const D: usize>(case: &Case, index: usize, body: &Body) -> Result<Vec<Point<D>>, CaseError> {
-    let shape = shapes::shape(&body.shape);
-    let fill = match body.fill {
+/// Places and volumes of the particles of a shape.
+pub fn filled<const D: usize>(
+    case: &Case,
+    (shape, fill): (&ShapeSpec, Fill),
+    (name, place): (&str, Place),
+) -> Result<Vec<(Vector<f64, D>, f64)>, CaseError> {
+    let fill = match fill {
         Fill::Lattice { origin } => geometry::Fill::Lattice { origin },
         Fill::Concentric => geometry::Fill::Concentric,
     };
-    let points = geometry::fill(&shape, &fill, case.spacing, shapes::dimension::<D>()).map_err(|error| {
-        case.error_at(body.place, format!("body `{}` cannot be filled: {error}", body.name), None)
-    })?;
+    let filled = geometry::fill(&shapes::shape(shape), &fill, case.spacing, shapes::dimension::<D>());
+    let points = filled
+        .map_err(|error| case.error_at(place, format!("body `{name}` cannot be filled: {error}"), None))?;
+    Ok(points.x.iter().map(|&x| vector(x)).zip(points.volume).collect())
+}
+
+fn fill<const D: usize>(case: &Case, index: usize, body: &Body) -> Result<Vec<Point<D>>, CaseError> {
+    let points = filled::<D>(case, (&body.shape, body.fill), (&body.name, body.place))?;
     let mut out = Vec::with_capacity(points.len());
-    for (&x, &volume) in points.x.iter().zip(&points.volume) {
+    for (at, volume) in points {
+        let x = padded(at);
         let v = body.velocity.eval(x, 0.0);
         if let Some(bad) = v.iter().find(|c| !c.is_finite()) {
             let message = format!("the velocity of body `{}` is {bad} at {x:?} m", body.name);
             return Err(case.error_at(body.place, message, None));
         }
-        out.push(Point { v: vector(v), body: index as u32, ..Point::at(vector(x), volume) });
+        out.push(Point { v: vector(v), body: index as u32, ..Point::at(at, volume) });
     }
     Ok(out)
 }

@@ -4,6 +4,7 @@ use super::bodies::{Group, padded};
 use super::shapes;
 use crate::{Case, Constraint, Fill, ShapeSpec};
 use taut::neighbours::{Adjacency, Search};
+use taut::simulation::Point;
 
 /// Fewer particles than this across a part do not bend as a solid does.
 const LEAST_ACROSS: usize = 4;
@@ -13,17 +14,15 @@ const LEAST_ACROSS: usize = 4;
 const FAST: f64 = 0.3;
 
 /// All doubts.
-pub fn warnings<const D: usize>(case: &Case, groups: &[Group<'_, D>], across: &[usize]) -> Vec<String> {
+pub fn warnings<const D: usize>(
+    case: &Case,
+    (groups, tools): (&[Group<'_, D>], &[Vec<Point<D>>]),
+    across: &[usize],
+) -> Vec<String> {
     let mut warnings = Vec::new();
-    if groups.len() > 1 {
-        warnings.push(
-            "bodies of different solvers do not touch each other: contact is between updated Lagrangian bodies only"
-                .to_string(),
-        );
-    }
     warnings.extend(thin(case, across));
     warnings.extend(lost::<D>(case));
-    warnings.extend(overlap(case, groups));
+    warnings.extend(overlap(case, (groups, tools)));
     warnings.extend(fast(case, groups));
     warnings
 }
@@ -39,8 +38,11 @@ fn thin(case: &Case, across: &[usize]) -> Vec<String> {
     .collect()
 }
 
-fn overlap<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Option<String> {
-    let points: Vec<_> = groups.iter().flat_map(|g| &g.points).collect();
+fn overlap<const D: usize>(
+    case: &Case,
+    (groups, tools): (&[Group<'_, D>], &[Vec<Point<D>>]),
+) -> Option<String> {
+    let points: Vec<_> = groups.iter().flat_map(|g| &g.points).chain(tools.iter().flatten()).collect();
     let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
     let mut list = Adjacency::default();
     let x = std::array::from_fn(|i| columns[i].as_slice());

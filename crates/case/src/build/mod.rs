@@ -12,6 +12,7 @@ mod solvers;
 mod statics;
 mod surface;
 mod thickness;
+mod touch;
 
 pub use afford::{available_memory, reckon};
 pub use observe::{ProbePoint, Watch};
@@ -19,12 +20,15 @@ pub(crate) use shapes::bounds;
 pub(crate) use statics::increments;
 
 use crate::{Case, CaseError};
+use taut::contact::Contact;
 use taut::simulation::{Damping, Drive, Grip, InSpace, Numbers, Point, Solver};
 
 /// Everything a run needs.
 pub struct Built {
     /// The bodies.
     pub solvers: Vec<Box<dyn Solver>>,
+    /// What they do to each other, if they touch.
+    pub contact: Option<Contact>,
     /// What drives them.
     pub drives: Vec<Box<dyn Drive>>,
     /// Who is held by each boundary.
@@ -74,14 +78,16 @@ where
     let driven = drives::prescribe(case, &mut groups)?;
     let loads = loads::loads(case, &mut groups, &driven.pulled())?;
     let solver = |group| solvers::solver(case, group, numbers);
-    let solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let mut solvers = groups.iter().map(solver).collect::<Result<Vec<_>, _>>()?;
+    let tools = touch::tools::<D>(case)?;
+    solvers.extend(case.tools.iter().zip(&tools).map(|(tool, points)| touch::rigid(case, tool, points)));
     let grips = driven.grips(case);
     // Loads add to what the others set.
     let drives = driven.drives().into_iter().chain(loads).collect();
     let probes = observe::probes(case, &groups)?;
-    let (watch, body) = observe::disorder(case, &groups)?;
+    let (watch, body) = observe::disorder(case, (&groups, &tools))?;
     let across = thickness::across(case, &groups);
-    let warnings = doubts::warnings(case, &groups, &across);
-    let damping = statics::damping(case, &groups);
-    Ok(Built { solvers, drives, grips, damping, probes, watch, body, numbers, warnings, across })
+    let warnings = doubts::warnings(case, (&groups, &tools), &across);
+    let (contact, damping) = (touch::contact(case), statics::damping(case, &groups));
+    Ok(Built { solvers, contact, drives, grips, damping, probes, watch, body, numbers, warnings, across })
 }

@@ -7,7 +7,7 @@ use geometry::Shape;
 use taut::diagnostics::MaterialPoint;
 use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
 use taut::field;
-use taut::simulation::{Point, Snapshot, Solver};
+use taut::simulation::{Point, Simulation, Snapshot, Solver};
 
 /// Where a probe reads.
 pub enum ProbePoint {
@@ -17,6 +17,28 @@ pub enum ProbePoint {
     Force(usize),
     /// The moment of that force.
     Moment(usize),
+    /// What contact does to a body.
+    Contact(Touched),
+}
+
+/// What contact does to a body.
+#[derive(Clone, Copy)]
+pub struct Touched {
+    /// Number of the body.
+    body: u32,
+    /// Number of the body that does it; `None` for all.
+    by: Option<u32>,
+    /// Whether it is the moment that is asked for.
+    moment: bool,
+}
+
+impl Touched {
+    /// The force or moment, as it was in the middle of the last step.
+    #[must_use]
+    pub fn value(&self, simulation: &Simulation) -> [f64; 3] {
+        let met = simulation.contact().map(|contact| contact.met(self.body, self.by)).unwrap_or_default();
+        if self.moment { met.moment } else { met.force }
+    }
 }
 
 /// Particles that a probe follows: weights of particles of one solver, by id.
@@ -35,13 +57,11 @@ impl Followed {
         let mean = |field| self.point.value(|id| solver.read(field, solver.stored(id)));
         match self.quantity {
             Quantity::Velocity => mean(field::Quantity::Velocity),
-            Quantity::Displacement | Quantity::Reaction | Quantity::Moment => {
-                mean(field::Quantity::Displacement)
-            }
             Quantity::Position => {
                 let u = mean(field::Quantity::Displacement);
                 std::array::from_fn(|i| self.at[i] + u[i])
             }
+            _ => mean(field::Quantity::Displacement),
         }
     }
 }
@@ -55,8 +75,13 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
                 _ => ProbePoint::Force(index),
             });
         }
+        if let Spot::Contact { by } = probe.spot {
+            let (body, by) = (probe.body as u32, by.map(|by| by as u32));
+            let moment = probe.quantity == Quantity::ContactMoment;
+            return Ok(ProbePoint::Contact(Touched { body, by, moment }));
+        }
         let spot = match &probe.spot {
-            Spot::Point(_) | Spot::Boundary(_) => None,
+            Spot::Point(_) | Spot::Boundary(_) | Spot::Contact { .. } => None,
             Spot::Region(region) => Some(checked::<D>(case, region, probe.place)?),
         };
         let found = groups.iter().enumerate().find_map(|(g, group)| {
@@ -64,7 +89,7 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
             let mine: Vec<_> = mine.collect();
             let (point, at) = match (&probe.spot, &spot) {
                 (Spot::Region(_), Some(region)) => mean(&mine, region)?,
-                (Spot::Region(_), None) | (Spot::Boundary(_), _) => return None,
+                (Spot::Region(_), None) | (Spot::Boundary(_) | Spot::Contact { .. }, _) => return None,
                 (Spot::Point(at), _) => {
                     let stored = mine.iter().map(|(place, p)| (*place, p.x));
                     (MaterialPoint::new(stored, vector(*at), case.spacing)?, *at)
@@ -75,7 +100,7 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
         let (solver, point, at) = found.ok_or_else(|| {
             let what = match probe.spot {
                 Spot::Point(_) => "no particle within 2.6 spacings",
-                Spot::Region(_) | Spot::Boundary(_) => "no particle is in its region",
+                Spot::Region(_) | Spot::Boundary(_) | Spot::Contact { .. } => "no particle is in its region",
             };
             let message = format!("probe `{}` is not in its body: {what}", probe.name);
             let name = case.bodies.get(probe.body).map_or("", |b| b.name.as_str());
@@ -125,6 +150,8 @@ pub trait Watch: Send {
 struct Arrangement<const D: usize> {
     reference: Reference<D>,
     columns: [Vec<f64>; D],
+    /// Particles of deformable bodies; those of tools follow, whose order is nobody's concern.
+    deformable: usize,
     gap: Gap<D>,
     /// The time of the state that was measured last, s.
     measured: Option<f64>,
@@ -138,7 +165,7 @@ impl<const D: usize> Arrangement<D> {
             return self.reference.last_deformation();
         }
         load(&mut self.columns, snapshot);
-        let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
+        let x: [&[f64]; D] = std::array::from_fn(|i| &self.columns[i][..self.deformable]);
         self.reference.deformation(x).unwrap_or_default()
     }
 }
@@ -175,7 +202,7 @@ impl<const D: usize> Watch for Arrangement<D> {
     fn measure(&mut self, snapshot: &Snapshot) -> Result<Disorder, DisorderError> {
         load(&mut self.columns, snapshot);
         let x: [&[f64]; D] = std::array::from_fn(|i| self.columns[i].as_slice());
-        let disorder = self.reference.measure(x)?;
+        let disorder = self.reference.measure(x.map(|x| &x[..self.deformable]))?;
         self.measured = Some(snapshot.time);
         Ok(disorder)
     }
@@ -187,20 +214,22 @@ impl<const D: usize> Watch for Arrangement<D> {
     }
 }
 
-/// The measure of disorder of all particles, and the body of each.
+/// The measure of disorder of all deformable bodies, and the body of each particle.
 pub fn disorder<const D: usize>(
     case: &Case,
-    groups: &[Group<'_, D>],
+    (groups, tools): (&[Group<'_, D>], &[Vec<Point<D>>]),
 ) -> Result<(Box<dyn Watch>, Vec<u32>), CaseError> {
     let points = || groups.iter().flat_map(|g| &g.points);
     let columns: [Vec<f64>; D] = std::array::from_fn(|i| points().map(|p| p.x[i]).collect());
-    let body: Vec<u32> = points().map(|p| p.body).collect();
+    let mut body: Vec<u32> = points().map(|p| p.body).collect();
     let spacing = vec![case.spacing; body.len()];
     let support = 2.0 * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max) * case.spacing;
     let x: [&[f64]; D] = std::array::from_fn(|i| columns[i].as_slice());
     let reference = Reference::new(x, &body, &spacing, support)
         .map_err(|error| case.error_at(case.bodies[0].place, error.to_string(), None))?;
-    let arrangement =
-        Arrangement { reference, columns, gap: Gap::new(body.clone(), 2.0 * support), measured: None };
+    let deformable = body.len();
+    body.extend(tools.iter().flatten().map(|p| p.body));
+    let gap = Gap::new(body.clone(), 2.0 * support);
+    let arrangement = Arrangement { reference, columns, deformable, gap, measured: None };
     Ok((Box::new(arrangement), body))
 }

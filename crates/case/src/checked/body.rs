@@ -43,6 +43,25 @@ pub enum Fill {
     Concentric,
 }
 
+/// The filling that a node describes; a lattice from the origin if there is none.
+pub(crate) fn read_fill(scope: &Scope, node: Option<&Node>) -> Result<Fill, Diagnostic> {
+    let Some(node) = node else { return Ok(Fill::Lattice { origin: [0.0; 3] }) };
+    match &node.value {
+        Value::Text(name) if name == fill::LATTICE => Ok(Fill::Lattice { origin: [0.0; 3] }),
+        Value::Text(name) if name == fill::CONCENTRIC => Ok(Fill::Concentric),
+        Value::Table(_) => {
+            let table = Section::of(node, "`fill`")?;
+            table.only_first(&[fill::LATTICE])?;
+            let lattice = Section::of(table.need(fill::LATTICE)?, "the fill `lattice`")?;
+            lattice.only_first(&[fill::ORIGIN.name])?;
+            let origin = scope.vector(lattice.need(fill::ORIGIN.name)?, &fill::ORIGIN)?;
+            Ok(Fill::Lattice { origin })
+        }
+        _ => Err(Diagnostic::at(node.place, format!("unknown fill, found {}", node.found()))
+            .help("write \"lattice\", \"concentric\" or { lattice = { origin = [..] } }")),
+    }
+}
+
 /// What bodies are read with.
 pub(crate) struct BodyReader<'a, 'b> {
     pub scope: &'a Scope,
@@ -59,7 +78,7 @@ impl BodyReader<'_, '_> {
         let name = problems.keep(part_name(section));
         let material = problems.keep(self.material(section));
         let shape = problems.keep(section.need(keys::SHAPE.name).and_then(|node| self.shapes.shape(node)));
-        let fill = problems.keep(self.fill(section.get(keys::FILL.name)));
+        let fill = problems.keep(read_fill(self.scope, section.get(keys::FILL.name)));
         let velocity = problems.keep(self.velocity(section.get(keys::VELOCITY.name)));
         let own = problems.keep(section.get(keys::FORMULATION.name).map(read_formulation).transpose())?;
         Some(Body {
@@ -76,24 +95,6 @@ impl BodyReader<'_, '_> {
     fn material(&self, section: &Section<'_>) -> Result<String, Diagnostic> {
         let at = find(section.need(keys::MATERIAL.name)?, "material", self.materials)?;
         Ok(self.materials[at].unwrap_or_default().to_string())
-    }
-
-    fn fill(&self, node: Option<&Node>) -> Result<Fill, Diagnostic> {
-        let Some(node) = node else { return Ok(Fill::Lattice { origin: [0.0; 3] }) };
-        match &node.value {
-            Value::Text(name) if name == fill::LATTICE => Ok(Fill::Lattice { origin: [0.0; 3] }),
-            Value::Text(name) if name == fill::CONCENTRIC => Ok(Fill::Concentric),
-            Value::Table(_) => {
-                let table = Section::of(node, "`fill`")?;
-                table.only_first(&[fill::LATTICE])?;
-                let lattice = Section::of(table.need(fill::LATTICE)?, "the fill `lattice`")?;
-                lattice.only_first(&[fill::ORIGIN.name])?;
-                let origin = self.scope.vector(lattice.need(fill::ORIGIN.name)?, &fill::ORIGIN)?;
-                Ok(Fill::Lattice { origin })
-            }
-            _ => Err(Diagnostic::at(node.place, format!("unknown fill, found {}", node.found()))
-                .help("write \"lattice\", \"concentric\" or { lattice = { origin = [..] } }")),
-        }
     }
 
     fn velocity(&self, node: Option<&Node>) -> Result<VectorField, Diagnostic> {

@@ -7,6 +7,7 @@ use output::limited::{LONGEST_TEXT, read_text};
 
 use super::body::Body;
 use super::choices::{Formulation, Kernel, Plane};
+use super::contact::Contact;
 use super::curves;
 use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
@@ -17,6 +18,7 @@ use super::read;
 use super::shape::ShapeSpec;
 use super::statics::{Damping, Statics};
 use super::time::{Monitor, Time};
+use super::tool::Tool;
 use crate::diagnostic::{CaseError, Diagnostic, render_warnings};
 use crate::source::{Overrides, Place, Sources};
 
@@ -45,6 +47,10 @@ pub struct Case {
     pub regions: Vec<(String, ShapeSpec)>,
     /// Bodies, at least one.
     pub bodies: Vec<Body>,
+    /// Rigid bodies; their numbers follow those of the bodies.
+    pub tools: Vec<Tool>,
+    /// What the case says about who touches whom.
+    pub contacts: Vec<Contact>,
     /// Prescribed motion.
     pub boundaries: Vec<Boundary>,
     /// Velocities at the start, by region.
@@ -102,6 +108,14 @@ impl Case {
     /// The case file after the overrides, as TOML: what has to be kept to repeat the run.
     pub fn case_text_as_run(&self) -> &str {
         &self.as_run
+    }
+
+    /// The name of a body or tool.
+    pub fn name_of(&self, body: usize) -> &str {
+        match self.bodies.get(body) {
+            Some(body) => &body.name,
+            None => self.tools.get(body - self.bodies.len()).map_or("", |tool| &tool.name),
+        }
     }
 
     /// The material of a body.

@@ -27,6 +27,11 @@ impl FieldExpression {
         self.depends_on_time
     }
 
+    /// The first variable of place that it uses.
+    pub(crate) fn place_variable(&self) -> Option<&'static str> {
+        ["x", "y", "z"].into_iter().enumerate().find(|(i, _)| self.expression.uses(*i)).map(|(_, name)| name)
+    }
+
     /// The value, if it is the same everywhere and always.
     pub fn as_constant(&self) -> Option<f64> {
         self.expression.as_constant()

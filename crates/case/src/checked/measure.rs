@@ -29,6 +29,8 @@ pub enum MeasureKind {
         axis: Axis,
         /// What about it.
         feature: Feature,
+        /// What it is divided by, SI; 1 with the unit of the probe if nothing is said.
+        over: Option<f64>,
     },
     /// Something about the turns that a probe goes around an axis through the origin, right-handed, counted from where it starts.
     Turns {
@@ -45,6 +47,11 @@ pub enum MeasureKind {
     ContactStart,
     /// Speed of the centre of mass of a body at the end, m/s.
     ReboundSpeed {
+        /// Number of the body.
+        body: usize,
+    },
+    /// Volume of a body at the end over that at rest.
+    VolumeRatio {
         /// Number of the body.
         body: usize,
     },
@@ -70,6 +77,8 @@ pub enum Feature {
         /// Which of them, counted from 1.
         index: usize,
     },
+    /// For how long it is larger than half of its largest value, s: of a blow.
+    Duration,
     /// The value at a time, s.
     ValueAt {
         /// The time.
@@ -99,6 +108,7 @@ pub(crate) enum Measured {
     Maximum,
     Minimum,
     TurningPoints,
+    Duration,
     ValueAt,
     MostTurns,
     LeastTurns,
@@ -106,6 +116,7 @@ pub(crate) enum Measured {
     KineticRatio,
     ContactStart,
     ReboundSpeed,
+    VolumeRatio,
 }
 
 impl Words for Measured {
@@ -119,6 +130,7 @@ impl Words for Measured {
         ("maximum", Self::Maximum, "largest value, and when"),
         ("minimum", Self::Minimum, "smallest value, and when"),
         ("turning-points", Self::TurningPoints, "a minimum or maximum by its number"),
+        ("duration", Self::Duration, "for how long it is larger than half of its largest value: of a blow"),
         ("value-at", Self::ValueAt, "the value at a time"),
         (
             "most-turns",
@@ -134,6 +146,7 @@ impl Words for Measured {
         ("kinetic-ratio", Self::KineticRatio, "kinetic energy at the end over that at the start"),
         ("contact-start", Self::ContactStart, "time of the first contact of two bodies"),
         ("rebound-speed", Self::ReboundSpeed, "speed of the centre of mass of a body at the end"),
+        ("volume-ratio", Self::VolumeRatio, "volume of a body (in 2D its area) at the end over that at rest"),
     ];
 }
 
@@ -144,13 +157,23 @@ impl Measured {
         const TURNING: &[Key] =
             &[keys::PROBE, keys::COMPONENT, keys::EXTREMUM, keys::PROMINENCE, keys::INDEX];
         match self {
-            Self::SecondCrossing | Self::FirstCrossing | Self::Maximum | Self::Minimum => CURVE,
+            Self::SecondCrossing | Self::FirstCrossing | Self::Maximum | Self::Minimum | Self::Duration => {
+                CURVE
+            }
             Self::TurningPoints => TURNING,
             Self::ValueAt => const { &[keys::PROBE, keys::COMPONENT, keys::TIME] },
             Self::MostTurns | Self::LeastTurns => const { &[keys::PROBE, keys::AXIS] },
             Self::TurnsAt => const { &[keys::PROBE, keys::AXIS, keys::TIME] },
             Self::KineticRatio | Self::ContactStart => &[],
-            Self::ReboundSpeed => const { &[keys::BODY] },
+            Self::ReboundSpeed | Self::VolumeRatio => const { &[keys::BODY] },
+        }
+    }
+
+    /// Keys that it may have besides.
+    pub(crate) fn more(self) -> &'static [Key] {
+        match self {
+            Self::Maximum | Self::Minimum | Self::TurningPoints | Self::ValueAt => const { &[keys::OVER] },
+            _ => &[],
         }
     }
 }
@@ -173,7 +196,7 @@ impl MeasureReader<'_> {
         let kind = problems.keep(kind.and_then(|node| choice(node, keys::KIND.name, Measured::WORDS)))?;
         let title = format!("{} of kind `{}`", section.title, word(kind));
         let titled = Section { title, ..section.clone() };
-        let allowed: Vec<Key> = [keys::NAME, keys::KIND].iter().chain(kind.keys()).copied().collect();
+        let allowed: Vec<Key> = [&[keys::NAME, keys::KIND], kind.keys(), kind.more()].concat();
         titled.only(&allowed, problems);
         let kind = problems.keep(self.kind(kind, &titled));
         Some(Measure { name: name?.to_string(), kind: kind? })
@@ -188,18 +211,33 @@ impl MeasureReader<'_> {
             }
             Measured::KineticRatio => Ok(MeasureKind::KineticRatio),
             Measured::ContactStart => Ok(MeasureKind::ContactStart),
-            Measured::ReboundSpeed => {
-                let body = find(section.need(keys::BODY.name)?, keys::BODY.name, self.bodies)?;
-                Ok(MeasureKind::ReboundSpeed { body })
-            }
+            Measured::ReboundSpeed => Ok(MeasureKind::ReboundSpeed { body: self.body(section)? }),
+            Measured::VolumeRatio => Ok(MeasureKind::VolumeRatio { body: self.body(section)? }),
             _ => {
                 let probe = find(section.need(keys::PROBE.name)?, keys::PROBE.name, self.probes)?;
-                let quantity = self.checked.get(probe).map_or(Quantity::Displacement, |p| p.quantity);
-                let axes = &Axis::WORDS[quantity.axes(self.scope.dimension)];
+                // Where a probe is wrong the others have moved up: then every axis may be right.
+                let whole = self.checked.len() == self.probes.len();
+                let quantity = self.checked.get(probe).filter(|_| whole).map(|p| p.quantity);
+                let axes = &Axis::WORDS[quantity.map_or(0..3, |q| q.axes(self.scope.dimension))];
                 let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
-                Ok(MeasureKind::Probe { probe, axis, feature: self.feature(kind, probe, section)? })
+                let feature = self.feature(kind, probe, section)?;
+                Ok(MeasureKind::Probe { probe, axis, feature, over: self.over(probe, section)? })
             }
         }
+    }
+
+    fn body(&self, section: &Section<'_>) -> Result<usize, Diagnostic> {
+        find(section.need(keys::BODY.name)?, keys::BODY.name, self.bodies)
+    }
+
+    /// The unit of what a probe records.
+    fn unit_of(&self, probe: usize) -> Dimension {
+        self.checked.get(probe).map_or(Dimension::LENGTH, |p| p.quantity.dimension())
+    }
+
+    fn over(&self, probe: usize, section: &Section<'_>) -> Result<Option<f64>, Diagnostic> {
+        let node = section.get(keys::OVER.name);
+        node.map(|node| self.scope.positive(node, "`over`", self.unit_of(probe))).transpose()
     }
 
     fn feature(&self, kind: Measured, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {
@@ -208,6 +246,7 @@ impl MeasureReader<'_> {
             Measured::SecondCrossing => Feature::SecondCrossing,
             Measured::Maximum => Feature::Maximum,
             Measured::Minimum => Feature::Minimum,
+            Measured::Duration => Feature::Duration,
             Measured::ValueAt => Feature::ValueAt { time: self.scope.need(section, &keys::TIME)? },
             _ => self.turning_point(probe, section)?,
         })
@@ -228,7 +267,7 @@ impl MeasureReader<'_> {
 
     fn turning_point(&self, probe: usize, section: &Section<'_>) -> Result<Feature, Diagnostic> {
         let extremum = choice(section.need(keys::EXTREMUM.name)?, keys::EXTREMUM.name, Extremum::WORDS)?;
-        let dimension = self.checked.get(probe).map_or(Dimension::LENGTH, |p| p.quantity.dimension());
+        let dimension = self.unit_of(probe);
         let prominence =
             self.scope.positive(section.need(keys::PROMINENCE.name)?, "`prominence`", dimension)?;
         Ok(Feature::TurningPoint { extremum, prominence, index: index(section)? })

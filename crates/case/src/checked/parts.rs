@@ -3,6 +3,7 @@
 use super::body::{Body, BodyReader};
 use super::choices::{Formulation, Plane};
 use super::compatible;
+use super::contact::{self, Contact};
 use super::force::Load;
 use super::load::{Boundary, Gravity, Initial, LoadReader};
 use super::material::{self, Material};
@@ -14,6 +15,7 @@ use super::scheme::Schemes;
 use super::scope::Scope;
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
+use super::tool::{self, Tool};
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::source::Place;
 use crate::written::{Section, Table, Value, list};
@@ -24,6 +26,8 @@ pub(super) struct Parts {
     pub materials: Vec<Material>,
     pub regions: Vec<(String, ShapeSpec)>,
     pub bodies: Vec<Body>,
+    pub tools: Vec<Tool>,
+    pub contacts: Vec<Contact>,
     pub boundaries: Vec<Boundary>,
     pub initial: Vec<Initial>,
     pub gravity: Vec<Gravity>,
@@ -50,6 +54,13 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let regions = shapes.all_regions(problems);
     let (body_sections, body_names) = named_list(root, "body", problems);
     let bodies = bodies(root, &body_sections, (&mut shapes, &schemes), problems);
+    let (tool_sections, all_names) = tool_names(root, &body_sections, problems);
+    let tools: Vec<Tool> =
+        tool_sections.iter().filter_map(|s| tool::read(s, &mut shapes, problems)).collect();
+    let contacts = contact::read(&list(root, "contact", problems), scope, &all_names, problems);
+    if bodies.len() == body_sections.len() && tools.len() == tool_sections.len() {
+        contact::check(&contacts, &bodies, &tools, problems);
+    }
     // A wrong name is told where it stands; what its default does not go with is nobody's mistake.
     if schemes.known {
         compatible::check(&bodies, &materials, problems);
@@ -63,12 +74,14 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
     let forces = forces.iter().filter_map(|s| loads.load(s, problems)).collect();
     let initial = list(root, "initial", problems);
     let initial = initial.iter().filter_map(|s| loads.initial(s, problems)).collect();
-    let (probes, measures) = records(root, &mut shapes, (&body_names, &held), problems);
+    let (probes, measures) = records(root, &mut shapes, [&body_names, &held, &all_names], problems);
     Parts {
         formulation: schemes.formulation,
         materials,
         regions,
         bodies,
+        tools,
+        contacts,
         boundaries,
         initial,
         gravity,
@@ -88,6 +101,19 @@ fn named_list<'a>(
     let (names, twice) = part_names(&sections);
     problems.0.extend(twice);
     (sections, names)
+}
+
+/// The sections of tools, and the names of all bodies and then tools; a name that comes twice is noted.
+fn tool_names<'a>(
+    root: &'a Table,
+    bodies: &[Section<'a>],
+    problems: &mut Problems,
+) -> (Vec<Section<'a>>, Vec<Option<&'a str>>) {
+    let tools = list(root, "tool", problems);
+    let (_, among_bodies) = part_names(bodies);
+    let (names, twice) = part_names(&[bodies, tools.as_slice()].concat());
+    problems.0.extend(twice.into_iter().skip(among_bodies.len()));
+    (tools, names)
 }
 
 fn bodies<'a>(
@@ -116,12 +142,12 @@ fn bodies<'a>(
 fn records<'a>(
     root: &'a Table,
     shapes: &mut ShapeReader<'a>,
-    (bodies, boundaries): (&[Option<&'a str>], &[Option<&'a str>]),
+    [bodies, boundaries, touching]: [&[Option<&'a str>]; 3],
     problems: &mut Problems,
 ) -> (Vec<Probe>, Vec<Measure>) {
     let scope = shapes.scope;
     let (sections, names) = named_list(root, "probe", problems);
-    let mut reader = ProbeReader { shapes, bodies, boundaries };
+    let mut reader = ProbeReader { shapes, bodies, boundaries, touching };
     let probes: Vec<Probe> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
     let (sections, _) = named_list(root, "measure", problems);
     let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::{Words, probe as keys};
 use crate::source::Place;
 use crate::units::Dimension;
-use crate::written::{Node, Section, choice, text};
+use crate::written::{Node, Section, Value, choice, text};
 use std::ops::Range;
 
 /// A material point whose motion is recorded, or a boundary whose reaction is.
@@ -41,6 +41,11 @@ pub enum Spot {
     Region(ShapeSpec),
     /// A boundary, by its number.
     Boundary(usize),
+    /// What contact does to the body.
+    Contact {
+        /// Number of the body that does it; `None` for all.
+        by: Option<usize>,
+    },
 }
 
 /// What a probe records.
@@ -56,6 +61,10 @@ pub enum Quantity {
     Reaction,
     /// Moment of that force about the origin, N m.
     Moment,
+    /// Contact force, N.
+    ContactForce,
+    /// Moment of the contact forces about the origin, N m.
+    ContactMoment,
 }
 
 impl Words for Quantity {
@@ -69,6 +78,12 @@ impl Words for Quantity {
             "force that a boundary exerts on what it holds, N (in 2D per metre of depth)",
         ),
         ("moment", Self::Moment, "moment of that force about the origin, N m; in 2D z only"),
+        (
+            "contact-force",
+            Self::ContactForce,
+            "the force of contact on a body or tool, N (in 2D per metre of depth)",
+        ),
+        ("contact-moment", Self::ContactMoment, "its moment about the origin, N m; in 2D z only"),
     ];
 }
 
@@ -78,8 +93,8 @@ impl Quantity {
         match self {
             Self::Displacement | Self::Position => Dimension::LENGTH,
             Self::Velocity => Dimension::SPEED,
-            Self::Reaction => Dimension::FORCE,
-            Self::Moment => Dimension::MOMENT,
+            Self::Reaction | Self::ContactForce => Dimension::FORCE,
+            Self::Moment | Self::ContactMoment => Dimension::MOMENT,
         }
     }
 
@@ -88,19 +103,25 @@ impl Quantity {
         match self {
             Self::Displacement | Self::Position => "m",
             Self::Velocity => "m/s",
-            Self::Reaction => "N",
-            Self::Moment => "N m",
+            Self::Reaction | Self::ContactForce => "N",
+            Self::Moment | Self::ContactMoment => "N m",
         }
     }
 
     /// The axes that it has components along.
     pub fn axes(self, dimension: usize) -> Range<usize> {
-        if self == Self::Moment && dimension == 2 { 2..3 } else { 0..dimension }
+        let turns = matches!(self, Self::Moment | Self::ContactMoment);
+        if turns && dimension == 2 { 2..3 } else { 0..dimension }
     }
 
     /// Whether it is recorded of a boundary.
     pub fn is_of_boundary(self) -> bool {
         matches!(self, Self::Reaction | Self::Moment)
+    }
+
+    /// Whether it is what contact does to a body.
+    pub fn is_of_contact(self) -> bool {
+        matches!(self, Self::ContactForce | Self::ContactMoment)
     }
 }
 
@@ -110,6 +131,8 @@ pub(crate) struct ProbeReader<'a, 'b> {
     /// Names of all bodies and boundaries of the case, also of wrong ones.
     pub bodies: &'b [Option<&'a str>],
     pub boundaries: &'b [Option<&'a str>],
+    /// Names of all bodies, and then tools.
+    pub touching: &'b [Option<&'a str>],
 }
 
 impl ProbeReader<'_, '_> {
@@ -117,10 +140,15 @@ impl ProbeReader<'_, '_> {
     pub(crate) fn read(&mut self, section: &Section<'_>, problems: &mut Problems) -> Option<Probe> {
         section.only(keys::TABLE.keys, problems);
         let name = problems.keep(part_name(section));
-        let spot = problems.keep(self.spot(section));
+        let of_contact = Quantity::WORDS.iter().any(|(word, quantity, _)| {
+            let said = section.get(keys::QUANTITY.name).map(|node| &node.value);
+            quantity.is_of_contact() && matches!(said, Some(Value::Text(text)) if text == word)
+        });
+        let spot = problems.keep(if of_contact { self.by(section) } else { self.spot(section) });
         let body = match spot {
             Some((Spot::Boundary(_), _)) => problems.keep(bodiless(section)),
-            _ => problems.keep(self.body(section)),
+            Some((Spot::Contact { .. }, _)) => problems.keep(body(section, self.touching)),
+            _ => problems.keep(body(section, self.bodies)),
         };
         let quantity = problems.keep(quantity(section, spot.as_ref().map(|(spot, _)| spot)));
         let interval = problems.keep(self.shapes.scope.get(section, &keys::INTERVAL));
@@ -137,11 +165,27 @@ impl ProbeReader<'_, '_> {
         })
     }
 
+    /// Whose force a probe of contact records.
+    fn by(&self, section: &Section<'_>) -> Result<(Spot, Place), Diagnostic> {
+        let others = [keys::AT.name, keys::REGION.name, keys::OF.name];
+        if let Some(node) = others.iter().find_map(|key| section.get(key)) {
+            let message = "a probe of contact is of a whole body: it has no `at`, `region` or `of`";
+            return Err(Diagnostic::at(node.place, message));
+        }
+        let by =
+            section.get(keys::BY.name).map(|node| find(node, "body or tool", self.touching)).transpose()?;
+        Ok((Spot::Contact { by }, section.place))
+    }
+
     fn spot(&mut self, section: &Section<'_>) -> Result<(Spot, Place), Diagnostic> {
         let given: Vec<(&str, &Node)> = [keys::AT.name, keys::REGION.name, keys::OF.name]
             .into_iter()
             .filter_map(|key| Some((key, section.get(key)?)))
             .collect();
+        if let Some(node) = section.get(keys::BY.name) {
+            let message = "`by` belongs to the quantities contact-force and contact-moment";
+            return Err(Diagnostic::at(node.place, message));
+        }
         match given.as_slice() {
             [] => Err(Diagnostic::at(section.place, "missing key `at`: the material point to follow").help(
                 "for example at = [0.2, 0]; or region = \"NAME\" for the mean over the particles in it; or of = \"NAME\" for the reaction of a boundary",
@@ -164,17 +208,17 @@ impl ProbeReader<'_, '_> {
         }
         find(node, "boundary", self.boundaries)
     }
+}
 
-    fn body(&self, section: &Section<'_>) -> Result<usize, Diagnostic> {
-        match section.get("body") {
-            Some(node) => find(node, "body", self.bodies),
-            None if self.bodies.len() <= 1 => Ok(0),
-            None => {
-                let names: Vec<&str> = self.bodies.iter().copied().flatten().collect();
-                let message = format!("{} has to say which `body` it belongs to", section.title);
-                Err(Diagnostic::at(section.place, message)
-                    .help(format!("the bodies are {}", names.join(", "))))
-            }
+/// Which of these a probe belongs to.
+fn body(section: &Section<'_>, bodies: &[Option<&str>]) -> Result<usize, Diagnostic> {
+    match section.get("body") {
+        Some(node) => find(node, "body", bodies),
+        None if bodies.len() <= 1 => Ok(0),
+        None => {
+            let names: Vec<&str> = bodies.iter().copied().flatten().collect();
+            let message = format!("{} has to say which `body` it belongs to", section.title);
+            Err(Diagnostic::at(section.place, message).help(format!("the bodies are {}", names.join(", "))))
         }
     }
 }

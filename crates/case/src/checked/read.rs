@@ -7,7 +7,7 @@ use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
 use super::scope::Scope;
-use super::{parameters, statics, time};
+use super::{contact, parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
@@ -57,6 +57,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
     let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
+    contact::refuse_statics(root, (&parts.contacts, parts.bodies.len(), parts.tools.len()), problems);
     let (time, monitor) = times?;
     Some(Case {
         name,
@@ -71,6 +72,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,
+        tools: parts.tools,
+        contacts: parts.contacts,
         boundaries: parts.boundaries,
         initial: parts.initial,
         gravity: parts.gravity,

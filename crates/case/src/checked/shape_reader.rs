@@ -165,7 +165,7 @@ impl<'a> ShapeReader<'a> {
     }
 
     /// The unit vector of a rotation: given in 3D, z in 2D.
-    fn axis(&self, section: &Section<'_>) -> Result<[f64; 3], Diagnostic> {
+    pub(crate) fn axis(&self, section: &Section<'_>) -> Result<[f64; 3], Diagnostic> {
         if self.scope.dimension == 2 {
             return match section.get(shape::AXIS.name) {
                 None => Ok([0.0, 0.0, 1.0]),

@@ -8,11 +8,13 @@ mod schema;
 mod shapes;
 mod statics;
 mod top;
+mod touch;
 
 pub(crate) use parts::{body, boundary, gravity, initial, measure, probe};
 pub(crate) use shapes::{fill, shape};
 pub(crate) use statics::{damping, quasi_static};
 pub(crate) use top::{case, material, monitor, region, time};
+pub(crate) use touch::{contact, tool};
 
 use crate::units::Dimension;
 
@@ -38,6 +40,8 @@ pub enum Kind {
     Name,
     /// The name of a part: of a `body`, a `material`, a `probe`.
     NameOf(&'static str),
+    /// A list of one or two such names.
+    NamesOf(&'static str),
     /// `true`.
     True,
     /// `true` or `false`.
@@ -64,7 +68,11 @@ pub enum Kind {
     History,
     /// One expression of the reference position x, y, z and the time t per axis.
     Field(Dimension),
-    /// The same, or "free" for an axis that is left alone.
+    /// One expression of the time t per axis.
+    OfTime(Dimension),
+    /// An angle, as an expression of the time t.
+    AngleOfTime,
+    /// One expression of place and time, or "free" for an axis that is left alone.
     FieldOrFree(Dimension),
     /// One of these words.
     Choice(fn() -> Vec<Choice>),
@@ -108,7 +116,10 @@ impl Kind {
     pub(crate) fn dimension(self) -> Option<Dimension> {
         match self {
             Self::Number(d, _) | Self::Vector(d) | Self::Pair(d) | Self::Pairs(d) => Some(d),
-            Self::Place(d) | Self::Scalar(d) | Self::Field(d) | Self::FieldOrFree(d) => Some(d),
+            Self::Place(d) | Self::Scalar(d) | Self::Field(d) | Self::FieldOrFree(d) | Self::OfTime(d) => {
+                Some(d)
+            }
+            Self::AngleOfTime => Some(Dimension::NUMBER),
             _ => None,
         }
     }

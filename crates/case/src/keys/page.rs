@@ -69,6 +69,7 @@ fn value(kind: &Kind) -> String {
         Kind::Text => "text",
         Kind::Name => "name",
         Kind::NameOf(part) => return format!("name of a {part}"),
+        Kind::NamesOf(part) => return format!("list of one or two names of a {part}"),
         Kind::True => "`true`",
         Kind::Flag => "`true` or `false`",
         Kind::OneOf(numbers) => {
@@ -83,6 +84,8 @@ fn value(kind: &Kind) -> String {
         Kind::Scalar(_) => "expression of x, y, z, t",
         Kind::History => "list of [time, factor], or name of a CSV file",
         Kind::Field(_) => "expression of x, y, z, t per axis",
+        Kind::OfTime(_) => "expression of t per axis",
+        Kind::AngleOfTime => "expression of t",
         Kind::FieldOrFree(_) => "expression of x, y, z, t or `\"free\"` per axis",
         Kind::Choice(_) => "word",
         Kind::Axes => "list of axes",

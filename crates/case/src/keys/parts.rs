@@ -42,7 +42,7 @@ pub(crate) mod body {
     );
     pub(crate) const TABLE: Table = Table {
         header: "[[body]]",
-        doc: "A deformable body. Updated Lagrangian bodies touch each other; others pass through.",
+        doc: "A deformable body. Bodies touch each other and tools; `[[contact]]` says how.",
         keys: &[NAME, MATERIAL, SHAPE, FILL, VELOCITY, FORMULATION],
         example: "[[body]]\nname = \"strip\"\nmaterial = \"rubber\"\nshape = { box = { min = [0, 0], max = [\"L\", \"H\"] } }\nvelocity = [0, \"0.1*sin(pi*x/L)\"]",
     };
@@ -138,7 +138,7 @@ pub(crate) mod probe {
         "at",
         Kind::Vector(Dimension::LENGTH),
         Need::Optional,
-        "The material point to follow, by its reference position; either this or `region` or `of`.",
+        "The material point to follow, by its reference position; either this or `region` or `of` (none for what contact does).",
     );
     pub(crate) const REGION: Key = Key::new(
         "region",
@@ -152,7 +152,18 @@ pub(crate) mod probe {
         Need::Optional,
         "The boundary whose reaction is recorded: what it has to exert, the mean since the sample before; for the quantities `reaction` and `moment`.",
     );
-    pub(crate) const BODY: Key = body_of("the only one");
+    pub(crate) const BODY: Key = Key::new(
+        "body",
+        Kind::NameOf("body"),
+        Need::Default("the only one"),
+        "The body that is meant; for what contact does, a body or tool.",
+    );
+    pub(crate) const BY: Key = Key::new(
+        "by",
+        Kind::NameOf("body or tool"),
+        Need::Default("all"),
+        "Whose force it is; for `contact-force` and `contact-moment`.",
+    );
     pub(crate) const QUANTITY: Key = Key::new(
         "quantity",
         Kind::Choice(Quantity::choices),
@@ -173,8 +184,8 @@ pub(crate) mod probe {
     );
     pub(crate) const TABLE: Table = Table {
         header: "[[probe]]",
-        doc: "A material point (or a region) whose motion is recorded, or a boundary whose reaction is.",
-        keys: &[NAME, AT, REGION, OF, BODY, QUANTITY, INTERVAL, REFERENCE],
+        doc: "A material point (or a region) whose motion is recorded, a boundary whose reaction is, or a body or tool that is pushed.",
+        keys: &[NAME, AT, REGION, OF, BODY, BY, QUANTITY, INTERVAL, REFERENCE],
         example: "[[probe]]\nname = \"tip\"\nat = [\"L\", \"H/2\"]",
     };
 }
@@ -230,12 +241,22 @@ pub(crate) mod measure {
         Need::Optional,
         "The axis that the probe goes around, right-handed, through the origin; in 2D z; for turns.",
     );
-    pub(crate) const BODY: Key =
-        Key::new("body", Kind::NameOf("body"), Need::Optional, "The body; for `rebound-speed`.");
+    pub(crate) const BODY: Key = Key::new(
+        "body",
+        Kind::NameOf("body"),
+        Need::Optional,
+        "The body; for `rebound-speed` and `volume-ratio`.",
+    );
+    pub(crate) const OVER: Key = Key::new(
+        "over",
+        Kind::OfProbe,
+        Need::Optional,
+        "Divide by this: the result is a ratio. For `maximum`, `minimum`, `turning-points` and `value-at`.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[[measure]]",
         doc: "A named result: a number that summary.json has under `measured`.",
-        keys: &[NAME, KIND, PROBE, COMPONENT, EXTREMUM, PROMINENCE, INDEX, TIME, AXIS, BODY],
+        keys: &[NAME, KIND, PROBE, COMPONENT, EXTREMUM, PROMINENCE, INDEX, TIME, AXIS, BODY, OVER],
         example: "[[measure]]\nname = \"period\"\nkind = \"second-crossing\"\nprobe = \"tip\"\ncomponent = \"y\"",
     };
 }

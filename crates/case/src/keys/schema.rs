@@ -73,7 +73,7 @@ fn property(key: &Key) -> Value {
 /// The unit of a number and what is allowed, for people.
 pub(super) fn unit(kind: &Kind) -> Option<String> {
     let (dimension, range) = match *kind {
-        Kind::OfProbe => return Some("m or m/s, as the probe records, > 0".to_string()),
+        Kind::OfProbe => return Some("m, m/s, N or N m, as the probe records, > 0".to_string()),
         Kind::Number(dimension, range) => (dimension, range),
         other => (other.dimension()?, Range::Any),
     };
@@ -87,6 +87,10 @@ fn kind(kind: &Kind) -> Value {
     match *kind {
         Kind::Text => json!({ "type": "string" }),
         Kind::Name | Kind::NameOf(_) => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" }),
+        Kind::NamesOf(_) => {
+            let name = json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" });
+            json!({ "type": "array", "items": name, "minItems": 1, "maxItems": 2 })
+        }
         Kind::True => json!({ "const": true }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::OneOf(numbers) => json!({ "enum": numbers }),
@@ -98,7 +102,8 @@ fn kind(kind: &Kind) -> Value {
             json!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": pair, "minItems": 1 }] })
         }
         Kind::OfProbe => bounded(Range::Positive),
-        Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) => {
+        Kind::AngleOfTime => number,
+        Kind::Vector(_) | Kind::Place(_) | Kind::Field(_) | Kind::FieldOrFree(_) | Kind::OfTime(_) => {
             json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 3 })
         }
         Kind::Pair(_) => json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 }),
@@ -169,9 +174,11 @@ fn kinds_of_measures() -> Value {
     let rule = |&(name, measured, _): &(&str, Measured, &str)| {
         let mut required = vec!["name", "kind"];
         required.extend(measured.keys().iter().map(|key| key.name));
+        let allowed: Vec<&str> =
+            required.iter().copied().chain(measured.more().iter().map(|key| key.name)).collect();
         json!({
             "if": { "properties": { "kind": { "const": name } } },
-            "then": { "required": required, "propertyNames": { "enum": required } },
+            "then": { "required": required, "propertyNames": { "enum": allowed } },
         })
     };
     <Measured as super::Words>::WORDS.iter().map(rule).collect()

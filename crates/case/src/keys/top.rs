@@ -3,8 +3,8 @@
 /// The top level.
 pub(crate) mod case {
     use super::super::{
-        Key, Kind, Need, Range, Table, Words, body, boundary, damping, gravity, initial, load, measure,
-        probe, quasi_static,
+        Key, Kind, Need, Range, Table, Words, body, boundary, contact, damping, gravity, initial, load,
+        measure, probe, quasi_static, tool,
     };
     use super::{material, monitor, region, time};
     use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
@@ -110,6 +110,8 @@ pub(crate) mod case {
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),
             table("body", Kind::List(&body::TABLE), Need::Required, &body::TABLE),
+            table("tool", Kind::List(&tool::TABLE), Need::Optional, &tool::TABLE),
+            table("contact", Kind::List(&contact::TABLE), Need::Optional, &contact::TABLE),
             table("boundary", Kind::List(&boundary::TABLE), Need::Optional, &boundary::TABLE),
             table("initial", Kind::List(&initial::TABLE), Need::Optional, &initial::TABLE),
             table("gravity", Kind::List(&gravity::TABLE), Need::Optional, &gravity::TABLE),

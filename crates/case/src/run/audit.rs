@@ -1,6 +1,6 @@
 //! The books of energy and momentum over the run: `audit.csv`, `reactions.csv`, and the worst that was missing.
 
-use super::checkpoint::{of_totals, totals};
+use super::checkpoint::{TOTALS, of_totals, totals};
 use super::error::RunError;
 use super::sheet::Sheet;
 use crate::{Case, Quantity};
@@ -26,14 +26,19 @@ pub struct Audit {
     history: Vec<[f64; 4]>,
 }
 
-/// initial + external work - dissipated - (kinetic + strain), J.
+/// initial + external work - dissipated - (kinetic + strain + contact), J.
 fn residual(start: &Totals, now: &Totals) -> f64 {
-    supplied(start, now) - now.dissipated - now.kinetic - now.strain
+    supplied(start, now) - now.dissipated - energy(now)
 }
 
 /// Energy at the start and from outside, J.
 fn supplied(start: &Totals, now: &Totals) -> f64 {
-    start.kinetic + start.strain + now.external_work
+    energy(start) + now.external_work
+}
+
+/// What bodies and contact hold, J.
+fn energy(totals: &Totals) -> f64 {
+    totals.kinetic + totals.strain + totals.contact
 }
 
 fn length(v: [f64; 3]) -> f64 {
@@ -46,7 +51,7 @@ impl Audit {
     /// # Errors
     /// If one cannot be made.
     pub fn create(case: &Case, results: &ResultDir) -> Result<Self, RunError> {
-        let energies = ["kinetic", "strain", "dissipated", "external work", "residual"];
+        let energies = ["kinetic", "strain", "contact", "dissipated", "external work", "residual"];
         let mut columns: Vec<(String, &str)> = energies.map(|name| (name.to_string(), "J")).to_vec();
         let vectors = [
             ("momentum", "kg m/s", Quantity::Reaction),
@@ -97,7 +102,7 @@ impl Audit {
 
     /// The books as numbers, to be kept.
     pub fn saved(&self) -> Vec<f64> {
-        let start = self.start.map(|start| of_totals(&start)).unwrap_or([f64::NAN; 18]);
+        let start = self.start.map(|start| of_totals(&start)).unwrap_or(vec![f64::NAN; TOTALS]);
         [&start[..], &self.worst, &self.scale, self.history.as_flattened()].concat()
     }
 
@@ -115,7 +120,7 @@ impl Audit {
             tables.push(ProbeTable::reopen(path, mark)?.0);
         }
         let mut tables = tables.into_iter();
-        let (start, rest) = books.split_at_checked(18).ok_or_else(damaged)?;
+        let (start, rest) = books.split_at_checked(TOTALS).ok_or_else(damaged)?;
         let (worst, rest) = rest.split_first_chunk::<3>().ok_or_else(damaged)?;
         let (scale, history) = rest.split_first_chunk::<3>().ok_or_else(damaged)?;
         Ok(Self {
@@ -137,7 +142,8 @@ impl Audit {
         let (time, now) = (sheet.snapshot.time, &sheet.totals);
         self.note(time, now);
         let start = self.start.unwrap_or_default();
-        let mut row = vec![now.kinetic, now.strain, now.dissipated, now.external_work, residual(&start, now)];
+        let mut row = vec![now.kinetic, now.strain, now.contact, now.dissipated, now.external_work];
+        row.push(residual(&start, now));
         let (line, around) = (Quantity::Reaction.axes(self.dimension), Quantity::Moment.axes(self.dimension));
         row.extend(&now.momentum[line.clone()]);
         row.extend(&now.impulse.linear[line.clone()]);
@@ -157,7 +163,7 @@ impl Audit {
 
     fn note(&mut self, time: f64, now: &Totals) {
         let start = *self.start.get_or_insert(*now);
-        self.history.push([time, now.kinetic, now.strain, now.kinetic + now.strain]);
+        self.history.push([time, now.kinetic, now.strain, energy(now)]);
         let missing = missing(&start, now);
         let scale = [
             supplied(&start, now),
@@ -193,10 +199,11 @@ impl Audit {
     /// The block `energy` of the summary.
     pub fn energy(&self, start: &Totals, end: &Totals) -> Energy {
         Energy {
-            initial: start.kinetic + start.strain,
-            at_end: end.kinetic + end.strain,
+            initial: energy(start),
+            at_end: energy(end),
             kinetic: end.kinetic,
             strain: end.strain,
+            contact: end.contact,
             dissipated: end.dissipated,
             external_work: end.external_work,
             residual: residual(start, end),

@@ -44,6 +44,19 @@ impl Curve<'_> {
         self.points().min_by(|a, b| a.value.total_cmp(&b.value))
     }
 
+    /// For how long the curve is above half of its largest value, from the first time it rises through that to the last
+    /// time it falls, linear between samples.
+    pub fn duration(&self) -> Option<f64> {
+        let half = 0.5 * self.maximum()?.value;
+        let cross = |i: usize| {
+            let (v0, v1) = (self.values[i - 1] - half, self.values[i] - half);
+            self.times[i - 1] + (self.times[i] - self.times[i - 1]) * v0 / (v0 - v1)
+        };
+        let up = (1..self.values.len()).find(|&i| self.values[i - 1] < half && self.values[i] >= half)?;
+        let down = (1..self.values.len()).rfind(|&i| self.values[i - 1] >= half && self.values[i] < half)?;
+        (down > up).then(|| cross(down) - cross(up))
+    }
+
     /// The value at a time, linear between samples.
     pub fn at(&self, time: f64) -> Option<f64> {
         let after = self.times.iter().position(|&t| t >= time)?;
@@ -118,6 +131,15 @@ mod tests {
         assert!((points[1].0.time - 1.5 * std::f64::consts::PI).abs() < 0.2);
         assert!(points[1].0.value < -1.0);
         assert!(curve.turning_points(3.0).is_empty());
+    }
+
+    #[test]
+    fn a_blow_lasts_from_half_to_half() {
+        let (times, values) = sampled(|t| (2.0 - (t - 5.0).abs()).max(0.0));
+        let curve = Curve { times: &times, values: &values };
+        // The triangle of half width 2 is above half of its height over a width of 2.
+        assert!((curve.duration().unwrap_or(0.0) - 2.0).abs() < 1e-12);
+        assert_eq!(Curve { times: &times[..500], values: &values[..500] }.duration(), None, "still rising");
     }
 
     #[test]

@@ -40,10 +40,15 @@ impl Evidence<'_> {
 
     fn one(&self, case: &Case, kind: &MeasureKind) -> Measured {
         match kind {
-            MeasureKind::Probe { probe, axis, feature } => {
+            MeasureKind::Probe { probe, axis, feature, over } => {
                 let series = &self.series[*probe];
                 let curve = Curve { times: &series.times, values: &series.values[axis.index()] };
-                feature_of(&curve, feature, case.probes[*probe].quantity.unit())
+                let measured = feature_of(&curve, feature, case.probes[*probe].quantity.unit());
+                over.map_or(measured.clone(), |over| Measured {
+                    value: measured.value.map(|value| value / over),
+                    unit: "1".to_string(),
+                    ..measured
+                })
             }
             MeasureKind::Turns { probe, axis, feature } => {
                 let Series { times, values } = &self.series[*probe];
@@ -56,8 +61,17 @@ impl Evidence<'_> {
                 Some(time) => Measured::value(time, "s"),
                 None => Measured::missing("s", "the bodies did not touch before the end of the run"),
             },
+            MeasureKind::VolumeRatio { body } => Measured::value(self.volume_ratio(case, *body), "1"),
             MeasureKind::ReboundSpeed { body } => Measured::value(self.mean_speed(*body), "m/s"),
         }
+    }
+
+    /// Present volume over that at rest.
+    fn volume_ratio(&self, case: &Case, body: usize) -> f64 {
+        let rest = case.material_of(&case.bodies[body]).map_or(f64::NAN, |material| material.density);
+        let mine = || (0..self.mass.len()).filter(|&i| self.snapshot.body[i] as usize == body);
+        let volume: f64 = mine().map(|i| self.mass[i] / self.snapshot.density[i]).sum();
+        volume / mine().map(|i| self.mass[i] / rest).sum::<f64>()
     }
 
     /// Speed of the centre of mass.
@@ -97,6 +111,10 @@ fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
         Feature::SecondCrossing => crossing(2, "the second zero crossing"),
         Feature::Maximum => point(curve.maximum(), "the first sample"),
         Feature::Minimum => point(curve.minimum(), "the first sample"),
+        Feature::Duration => curve.duration().map_or_else(
+            || short("half of the largest value was passed twice", "s"),
+            |t| Measured::value(t, "s"),
+        ),
         Feature::TurningPoint { extremum, prominence, index } => {
             let wanted = extremum == Extremum::Maximum;
             let all = curve.turning_points(prominence);

@@ -114,6 +114,7 @@ impl<'a> Recorder<'a> {
                     ProbePoint::Motion(followed) => Some(followed.value(simulation.solvers())),
                     ProbePoint::Force(boundary) => meter.mean(simulation, *boundary).map(|r| r.linear),
                     ProbePoint::Moment(boundary) => meter.mean(simulation, *boundary).map(|r| r.angular),
+                    ProbePoint::Contact(touched) => Some(touched.value(simulation)),
                 };
                 let sample = value.map(|value| Sample { probe: i, time, value });
                 self.outbox.sheet.samples.extend(sample);

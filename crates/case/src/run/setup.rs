@@ -60,8 +60,9 @@ struct Rest {
 
 /// The simulation as it is built, not begun.
 fn simulation(built: Built) -> (Simulation, Rest) {
-    let Built { solvers, drives, grips, damping, probes, watch, numbers, warnings, across, .. } = built;
-    let mut simulation = Simulation::new(solvers, drives).damped(damping);
+    let Built { solvers, contact, drives, grips, damping, probes, watch, numbers, warnings, across, .. } =
+        built;
+    let mut simulation = Simulation::new(solvers, drives).damped(damping).touching(contact);
     simulation.hold(grips);
     (simulation, Rest { probes, watch, numbers, warnings, across })
 }

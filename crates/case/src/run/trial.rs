@@ -110,9 +110,9 @@ fn of_built(case: &Case, built: Built, before: f64) -> Result<Estimate, RunError
 
 fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<Estimate, RunError> {
     let particles = built.particles();
-    let Built { solvers, drives, damping, grips, mut watch, warnings, across, .. } = built;
+    let Built { solvers, contact, drives, damping, grips, mut watch, warnings, across, .. } = built;
     let stopped = |diverged| RunError::Tried(Box::new(diverged));
-    let mut simulation = Simulation::new(solvers, drives).damped(damping);
+    let mut simulation = Simulation::new(solvers, drives).damped(damping).touching(contact);
     simulation.hold(grips);
     simulation.begin().map_err(stopped)?;
     let (dt, first) = (simulation.dt(), looked_at(case, &simulation, watch.as_mut())?);

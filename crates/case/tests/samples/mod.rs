@@ -1,4 +1,4 @@
-//! Three cases that are right.
+//! Four cases that are right.
 #![allow(dead_code, reason = "each test program uses some of them")]
 
 use case::{Case, CaseError, Overrides};
@@ -169,6 +169,82 @@ probe = "S"
 component = "x"
 kind = "value-at"
 time = 1
+"#;
+
+/// A strip between tools that touch, turn and rub, total Lagrangian, 2D.
+pub const PUNCH: &str = r#"name = "punch"
+dimension = 2
+spacing = "H/10"
+
+[parameters]
+H = "3 mm"
+
+[material.rubber]
+model = "neo-hookean"
+density = 1100
+youngs_modulus = "17 MPa"
+poisson_ratio = 0.45
+
+[[body]]
+name = "strip"
+material = "rubber"
+shape = { box = { min = [0, 0], max = ["3*H", "H"] } }
+
+[[body]]
+name = "block"
+material = "rubber"
+shape = { box = { min = [0, "-H"], max = ["3*H", 0] } }
+formulation = "tl-nested"
+
+[[tool]]
+name = "upper"
+shape = { box = { min = [0, "H"], max = ["3*H", "1.3*H"] } }
+displacement = [0, "-0.1*t"]
+
+[[tool]]
+name = "roller"
+shape = { ball = { center = ["H", "-1.5*H"], radius = "H/2" } }
+fill = "concentric"
+velocity = [0, "10 mm/s"]
+angle = "2*pi*t"
+about = ["H", "-1.5*H"]
+
+[[contact]]
+bodies = ["strip", "upper"]
+friction = 0.3
+
+[[contact]]
+bodies = ["block"]
+
+[[contact]]
+bodies = ["strip", "roller"]
+ignore = true
+
+[time]
+end = "1 ms"
+
+[[probe]]
+name = "force"
+quantity = "contact-force"
+body = "upper"
+by = "strip"
+
+[[probe]]
+name = "moment"
+quantity = "contact-moment"
+body = "roller"
+
+[[measure]]
+name = "most"
+kind = "maximum"
+probe = "moment"
+component = "z"
+over = "2 N m"
+
+[[measure]]
+name = "volume"
+kind = "volume-ratio"
+body = "strip"
 "#;
 
 /// The case of a text, without overrides.

@@ -90,7 +90,6 @@ fn every_warning_of_check() {
         ("0.45", "0.499", "close to 0.5"),
         ("v0 = 10", "v0 = 90", "of its wave speed"),
         ("fixed = true", "velocity = [\"200 m/s\", 0]", "of its wave speed"),
-        ("[[boundary]]", second, "do not touch each other"),
         ("[[boundary]]", &second.replace("0.0201", "0.0191"), "overlap at the start"),
         (shape, hole, "1 hole takes no particle away"),
         (shape, rib, "1 part of its shape holds no particle"),

@@ -30,6 +30,7 @@ const FLOORS: &[&str] = &[
     "machine",
     "integrator",
     "diagnostics",
+    "contact",
     "simulation",
 ];
 

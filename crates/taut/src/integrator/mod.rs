@@ -1,9 +1,10 @@
-//! Time integration: position Verlet for both families, and the time steps they may take.
+//! Time integration: position Verlet for both families, the time steps they may take, and rigid bodies, which are told where to be.
 
 mod diverged;
 mod limits;
 mod outside;
 mod relax;
+mod rigid;
 mod solver;
 mod total;
 mod updated;
@@ -12,6 +13,7 @@ pub use diverged::{Cause, Diverged};
 pub use limits::{Bounding, Criterion, Limits};
 pub use outside::{Held, Impulse, cross};
 pub use relax::{Relax, Unrest};
+pub use rigid::{Motion, Pose, Rigid};
 pub use solver::{Seen, Solver};
 pub use total::{Total, TotalOptions, WaveSpeed};
 pub use updated::{Stepping, Updated, UpdatedOptions};

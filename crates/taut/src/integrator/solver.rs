@@ -3,6 +3,7 @@
 use super::{Bounding, Diverged, Held, Impulse, Relax};
 use crate::field::Quantity;
 use crate::formulation::State;
+use crate::math::Vector;
 use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
 use crate::run::Relist;
@@ -47,6 +48,10 @@ pub trait Solver: Send + Sync {
     fn ids(&self) -> &[u32];
     /// The place where the particle of an id is stored; it may change from step to step.
     fn stored(&self, id: usize) -> usize;
+    /// Whether its particles have no mass and move as they are told.
+    fn is_rigid(&self) -> bool {
+        false
+    }
     /// Mean number of neighbours.
     fn neighbours(&self) -> f64;
 
@@ -116,6 +121,36 @@ pub trait Solver: Send + Sync {
     /// A scalar field of the particle stored at `place`.
     fn scalar(&self, field: Quantity, place: usize) -> f64 {
         self.word(field, 0, place)
+    }
+    /// Volume of the undeformed particle stored at `place`, m^3.
+    fn rest_volume(&self, place: usize) -> f64 {
+        self.scalar(Quantity::Volume, place)
+    }
+    /// The position that the forces of the coming step are functions of, m.
+    fn configuration(&self, place: usize) -> [f64; 3];
+    /// The same of particles by id: one virtual call for all of them.
+    fn locate(&self, ids: &[u32], out: &mut [Vector<f64, 3>]) {
+        for (&id, out) in ids.iter().zip(out) {
+            *out = Vector(self.configuration(self.stored(id as usize)));
+        }
+    }
+    /// Adds to the velocities of particles by id, m/s, what a force from elsewhere does in the coming step of `dt`.
+    fn kick(&mut self, changes: &[(u32, Vector<f64, 3>)], dt: f64) {
+        for &(id, change) in changes {
+            let place = self.stored(id as usize);
+            for k in 0..self.dimension() {
+                let v = self.word(Quantity::Velocity, k, place);
+                self.set_word(Quantity::Velocity, k, (place, v + change[k]));
+            }
+            self.correct(place, change, dt);
+        }
+    }
+    /// The body's own kick takes the mean velocity of the step for the work of its forces, and finds it too large by half of a change that
+    /// came before: takes back what that makes of the work of the body force.
+    fn correct(&mut self, place: usize, change: Vector<f64, 3>, dt: f64) {
+        let force = Vector(self.read(Quantity::BodyForce, place)).times(self.scalar(Quantity::Mass, place));
+        let work = self.scalar(Quantity::ExternalWork, place) - 0.5 * dt * force.dot(change);
+        self.set_word(Quantity::ExternalWork, 0, (place, work));
     }
     /// Stress and energy of the particle stored at `place`.
     fn state(&self, place: usize) -> State;

@@ -283,6 +283,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
         self.run.set_word(field, word, at);
     }
 
+    fn configuration(&self, place: usize) -> [f64; 3] {
+        let word = |field, i| self.run.word(field, i, place);
+        let at = |i| word(Quantity::ReferencePosition, i) + word(Quantity::Displacement, i);
+        std::array::from_fn(|i| if i < D { at(i) } else { 0.0 })
+    }
+
     fn state(&self, place: usize) -> State {
         self.formulation.state(&self.run, place, self.ahead)
     }

@@ -8,6 +8,7 @@ use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
+use crate::math::Vector;
 use crate::neighbours::storage_order;
 use crate::particles::saved::{Part, RestoreError, Shelf, Values};
 use crate::pass::Now;
@@ -341,6 +342,25 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn set_word(&mut self, field: Quantity, word: usize, at: (usize, f64)) {
         self.run.set_word(field, word, at);
+    }
+
+    fn rest_volume(&self, place: usize) -> f64 {
+        self.scalar(Quantity::Mass, place) / self.scalar(Quantity::RestDensity, place)
+    }
+
+    fn configuration(&self, place: usize) -> [f64; 3] {
+        self.read(Quantity::Position, place)
+    }
+
+    fn correct(&mut self, place: usize, change: Vector<f64, 3>, dt: f64) {
+        let mass = self.scalar(Quantity::Mass, place);
+        let half = |force: [f64; 3]| 0.5 * dt * mass * Vector(force).dot(change);
+        let work = half(self.read(Quantity::BodyForce, place));
+        let stored = half(self.read(Quantity::ShearAcceleration, place));
+        let external = self.scalar(Quantity::ExternalWork, place) - work;
+        self.set_word(Quantity::ExternalWork, 0, (place, external));
+        let shear = self.scalar(Quantity::ShearWork, place) + stored;
+        self.set_word(Quantity::ShearWork, 0, (place, shear));
     }
 
     fn state(&self, place: usize) -> State {

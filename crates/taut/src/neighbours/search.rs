@@ -49,6 +49,23 @@ impl<const D: usize> Search<D> {
     }
 }
 
+impl<const D: usize> Search<D> {
+    /// The same with a rule of the caller's own for which pairs count; it has to be the same for (a, b) and (b, a).
+    ///
+    /// # Errors
+    /// As [`Search::pairs`].
+    pub fn pairs_of(
+        &mut self,
+        x: [&[f64]; D],
+        radius: f64,
+        pair: impl Fn(usize, usize) -> bool + Sync,
+        list: &mut Adjacency,
+    ) -> Result<(), SearchError> {
+        self.grid.build(x, radius)?;
+        fill(Finder { grid: &self.grid, x, pair }, &mut self.staged, list)
+    }
+}
+
 /// What all threads read: the grid, the positions by particle, and which pairs count.
 struct Finder<'a, Pair, const D: usize> {
     grid: &'a CellGrid<D>,

@@ -123,8 +123,8 @@ impl Audit {
         total
     }
 
-    /// Finds out what is held and what is pulled at.
-    pub fn start(&mut self, solvers: &[Box<dyn Solver>], drives: &[Box<dyn Drive>]) {
+    /// Finds out what is held and what is pulled at, and whether bodies may push each other meanwhile.
+    pub fn start(&mut self, solvers: &[Box<dyn Solver>], drives: &[Box<dyn Drive>], touching: bool) {
         let others = self.unnamed(solvers);
         if !others.is_empty() {
             self.grips.push(others);
@@ -134,13 +134,14 @@ impl Audit {
         for drive in drives {
             drive.pulls(&mut |solver, id| driven[solver].push(id));
         }
-        self.loads = solvers.iter().zip(driven).map(|(s, driven)| load(s.as_ref(), driven)).collect();
+        self.loads =
+            solvers.iter().zip(driven).map(|(s, driven)| load(s.as_ref(), driven, touching)).collect();
     }
 
     /// Held components that no grip has.
     fn unnamed(&self, solvers: &[Box<dyn Solver>]) -> Grip {
         let mut others = Grip::default();
-        for (s, solver) in solvers.iter().enumerate() {
+        for (s, solver) in solvers.iter().enumerate().filter(|(_, solver)| !solver.is_rigid()) {
             let mut named = vec![[false; 3]; solver.len()];
             for (_, held) in self.grips.iter().flat_map(|g| &g.parts).filter(|(part, _)| *part == s) {
                 for (&id, axes) in held.ids.iter().zip(&held.axes) {
@@ -228,12 +229,13 @@ impl Audit {
     }
 }
 
-/// What pulls at a solver; `driven` are the particles whose body force changes.
-fn load(solver: &dyn Solver, mut driven: Vec<u32>) -> Load {
+/// What pulls at a solver; `driven` are the particles whose body force changes. Where bodies touch, the centre of mass does not follow from
+/// constraints and body forces alone.
+fn load(solver: &dyn Solver, mut driven: Vec<u32>, touching: bool) -> Load {
     let ids = 0..solver.len() as u32;
     let force = |id: u32| solver.read(Quantity::BodyForce, solver.stored(id as usize));
     let first = if solver.is_empty() { [0.0; 3] } else { force(0) };
-    if driven.is_empty() && first != [0.0; 3] && ids.clone().all(|id| force(id) == first) {
+    if !touching && driven.is_empty() && first != [0.0; 3] && ids.clone().all(|id| force(id) == first) {
         return Load::Uniform(ids.fold(Fall { force: first, ..Fall::default() }, |mut fall, id| {
             let place = solver.stored(id as usize);
             let (m, v) = (solver.scalar(Quantity::Mass, place), solver.read(Quantity::Velocity, place));

@@ -1,6 +1,7 @@
 //! What ends a run although no single number is wrong yet: energy from nowhere, a time step without end.
 
 use super::{Seen, Solver};
+use crate::contact::Contact;
 use crate::field::Quantity;
 use crate::integrator::{Cause, Diverged};
 
@@ -65,8 +66,13 @@ struct Particle {
 }
 
 impl Look {
-    fn of(solvers: &[Box<dyn Solver>]) -> Self {
+    fn of(solvers: &[Box<dyn Solver>], contact: Option<&Contact>) -> Self {
         let (mut look, mut first) = (Self::default(), 0);
+        if let Some(contact) = contact {
+            look.energy = contact.energy(solvers);
+            look.dissipated = contact.dissipated();
+            look.work = contact.external_work();
+        }
         for solver in solvers {
             solver.show(0..solver.len(), &mut |seen| look.take(first, seen));
             first += solver.len() as u32;
@@ -75,6 +81,9 @@ impl Look {
     }
 
     fn take(&mut self, first: u32, seen: &Seen) {
+        if seen.mass == 0.0 {
+            return;
+        }
         let speed = seen.velocity.iter().map(|c| c * c).sum::<f64>();
         let energy = 0.5 * seen.mass * speed + seen.state.strain_energy;
         self.energy += energy;
@@ -105,7 +114,7 @@ impl Look {
 impl Guard {
     /// A guard of bodies before their first step, which is `dt` long.
     pub fn start(solvers: &[Box<dyn Solver>], dt: f64) -> Self {
-        let initial = Look::of(solvers).energy;
+        let initial = Look::of(solvers, None).energy;
         Self { first: dt, initial, supplied: initial, beyond: 0 }
     }
 
@@ -145,11 +154,16 @@ impl Guard {
     ///
     /// # Errors
     /// If energy came from nowhere, or a density is out of bounds.
-    pub fn look(&mut self, steps: u64, solvers: &[Box<dyn Solver>]) -> Result<(), Diverged> {
+    pub fn look(
+        &mut self,
+        steps: u64,
+        solvers: &[Box<dyn Solver>],
+        contact: Option<&Contact>,
+    ) -> Result<(), Diverged> {
         if !(steps.is_power_of_two() || steps.is_multiple_of(EVERY) || self.beyond > 0) {
             return Ok(());
         }
-        let look = Look::of(solvers);
+        let look = Look::of(solvers, contact);
         if let Some((ratio, particle)) = look.squeezed {
             let rest = particle.density / ratio;
             let bound = if ratio > 1.0 { DENSEST * rest } else { rest / DENSEST };

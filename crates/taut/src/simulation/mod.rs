@@ -24,8 +24,9 @@ pub use particles::{Point, total, updated};
 pub use quasi_static::{Balance, Increment, Increments, QuasiStatic};
 pub use snapshot::{Snapshot, Totals};
 
-pub use crate::integrator::{Seen, Solver};
+pub use crate::integrator::{Motion, Pose, Rigid, Seen, Solver};
 
+use crate::contact::Contact;
 use crate::integrator::{Diverged, Impulse};
 use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
@@ -57,6 +58,7 @@ pub trait Drive: Send {
 pub struct Simulation {
     solvers: Vec<Box<dyn Solver>>,
     drives: Vec<Box<dyn Drive>>,
+    contact: Option<Contact>,
     audit: Audit,
     guard: Guard,
     history: History,
@@ -81,7 +83,14 @@ impl Simulation {
     #[must_use]
     pub fn new(solvers: Vec<Box<dyn Solver>>, drives: Vec<Box<dyn Drive>>) -> Self {
         let (audit, guard, history) = (Audit::default(), Guard::default(), History::new());
-        Self { solvers, drives, damping: None, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
+        let (damping, contact) = (None, None);
+        Self { solvers, drives, damping, contact, audit, guard, history, time: 0.0, dt: 0.0, steps: 0 }
+    }
+
+    /// The same with bodies that touch.
+    #[must_use]
+    pub fn touching(self, contact: Option<Contact>) -> Self {
+        Self { contact, ..self }
     }
 
     /// The same with its motion damped.
@@ -105,7 +114,10 @@ impl Simulation {
             solver.start().map_err(|diverged| diverged.after(first))?;
             first += solver.len() as u32;
         }
-        self.audit.start(&self.solvers, &self.drives);
+        if let Some(contact) = &mut self.contact {
+            contact.begin(&self.solvers)?;
+        }
+        self.audit.start(&self.solvers, &self.drives, self.contact.is_some());
         let (at_bound, dt) = self.stable_step();
         self.dt = dt;
         self.guard = Guard::start(&self.solvers, dt);
@@ -116,10 +128,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// The solver that asks for the shortest step, and that step.
+    /// The solver that asks for the shortest step, and that step. Stiffnesses of bodies and contact add up, so squares of frequencies do at
+    /// most: 1/dt^2 = 1/dt_bodies^2 + 1/dt_contact^2.
     fn stable_step(&self) -> (usize, f64) {
         let steps = self.solvers.iter().map(|s| s.stable_step()).enumerate();
-        steps.fold((0, f64::INFINITY), |least, step| if step.1 < least.1 { step } else { least })
+        let (solver, bodies) =
+            steps.fold((0, f64::INFINITY), |least, step| if step.1 < least.1 { step } else { least });
+        let contact = self.contact.as_ref().map_or(f64::INFINITY, Contact::stable_step);
+        (solver, bodies / (1.0 + (bodies / contact).powi(2)).sqrt())
     }
 
     /// Takes down the step that comes next, which a solver asked for.
@@ -186,6 +202,9 @@ impl Simulation {
             }
             Some(load) => self.drive_slowly(now.dt, load),
         };
+        if let Some(contact) = &mut self.contact {
+            contact.apply(&mut self.solvers, now)?;
+        }
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {
             solver.advance(now).map_err(|diverged| diverged.after(first))?;
@@ -213,7 +232,22 @@ impl Simulation {
         self.dt = next;
         self.remember((at_bound, next));
         // Masses that are scaled, as when loads have a clock of their own, keep another energy.
-        if load.is_some() { Ok(()) } else { self.guard.look(self.steps, &self.solvers) }
+        if load.is_some() {
+            Ok(())
+        } else {
+            self.guard.look(self.steps, &self.solvers, self.contact.as_ref())
+        }
+    }
+
+    /// What bodies do to each other, if they touch.
+    #[must_use]
+    pub fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
+    }
+
+    /// The same, to put back what it remembers.
+    pub fn contact_mut(&mut self) -> Option<&mut Contact> {
+        self.contact.as_mut()
     }
 
     /// The bodies.

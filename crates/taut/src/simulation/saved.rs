@@ -13,6 +13,11 @@ impl Simulation {
             Part::numbers("guard", &self.guard.saved()),
             Part::numbers("audit", &self.audit.saved()),
         ];
+        if let Some(contact) = &self.contact {
+            let memory = contact.memory();
+            parts.push(Part::numbers("contact-length", &[memory.len() as f64]));
+            parts.push(Part::numbers("contact", &memory));
+        }
         for (i, solver) in self.solvers.iter().enumerate() {
             parts.extend(solver.save().into_iter().map(|part| part.within(&solver_level(i))));
         }
@@ -32,7 +37,7 @@ impl Simulation {
         for solver in &mut self.solvers {
             solver.start().map_err(|_| RestoreError::Foreign("they cannot be started"))?;
         }
-        self.audit.start(&self.solvers, &self.drives);
+        self.audit.start(&self.solvers, &self.drives, self.contact.is_some());
         let [time, dt, steps] = shelf.numbers("clock")?;
         if !(dt > 0.0 && time >= 0.0) {
             return Err(shelf.unfit("clock", "no time or no step"));
@@ -52,9 +57,22 @@ impl Simulation {
             drive.restore(shelf)?;
         }
         shelf.enter("");
+        self.touch_again(shelf)?;
         let (at_bound, _) = self.stable_step();
         self.remember((at_bound, dt));
         Ok(())
+    }
+
+    /// Contact between bodies that are where they were.
+    fn touch_again(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
+        let Some(contact) = &mut self.contact else { return Ok(()) };
+        contact.begin(&self.solvers).map_err(|_| RestoreError::Foreign("they cannot be started"))?;
+        let [length] = shelf.numbers("contact-length")?;
+        let length = shelf.count("contact-length", length)? as usize;
+        if contact.recall(&shelf.doubles("contact", length)?) {
+            return Ok(());
+        }
+        Err(shelf.unfit("contact", "no memory of contact"))
     }
 }
 

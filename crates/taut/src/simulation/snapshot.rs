@@ -1,6 +1,7 @@
 //! What a simulation looks like from outside, at one instant.
 
 use super::{Seen, Simulation};
+use crate::contact::Met;
 use crate::integrator::{Impulse, Solver, cross};
 use crate::math::Tensor;
 use rayon::prelude::*;
@@ -118,6 +119,8 @@ pub struct Totals {
     pub kinetic: f64,
     /// Strain energy, J.
     pub strain: f64,
+    /// Energy held by contact, J.
+    pub contact: f64,
     /// Energy dissipated since the start, J.
     pub dissipated: f64,
     /// Work done from outside since the start, J.
@@ -192,7 +195,19 @@ impl Simulation {
             totals = sums.iter().fold(totals, Totals::and);
             first += solver.len();
         }
+        self.meet(&mut totals);
         totals
+    }
+
+    /// Adds what contact holds, takes and passes on.
+    fn meet(&self, totals: &mut Totals) {
+        if let Some(contact) = &self.contact {
+            totals.contact = contact.energy(&self.solvers);
+            totals.dissipated += contact.dissipated();
+            totals.external_work += contact.external_work();
+            let Met { force: linear, moment: angular } = contact.impulse();
+            totals.impulse += Impulse { linear, angular };
+        }
     }
 
     /// Energies and momenta now.
@@ -206,6 +221,7 @@ impl Simulation {
                 totals = totals.and(&sum);
             }
         }
+        self.meet(&mut totals);
         totals
     }
 }

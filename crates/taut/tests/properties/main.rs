@@ -5,6 +5,7 @@
 mod common;
 
 mod constraints;
+mod contact;
 mod damping;
 mod divergence;
 mod energy;

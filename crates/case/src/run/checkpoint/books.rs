@@ -121,44 +121,33 @@ pub fn remembered(checkpoint: &Checkpoint) -> Result<Remembered, String> {
     Ok(Remembered { due, meters: [meters(METERS[0])?, meters(METERS[1])?], start })
 }
 
+/// How many numbers [`of_totals`] are.
+pub const TOTALS: usize = 19;
+
 /// Energies, momenta and impulses as numbers.
-pub fn of_totals(totals: &Totals) -> [f64; 18] {
-    let t = totals;
-    let ([px, py, pz], [lx, ly, lz]) = (t.momentum, t.angular_momentum);
-    let ([ix, iy, iz], [jx, jy, jz]) = (t.impulse.linear, t.impulse.angular);
-    let [line, around] = t.motion;
-    let energies = (t.kinetic, t.strain, t.dissipated, t.external_work);
-    let (kinetic, strain, dissipated, work) = energies;
-    [kinetic, strain, dissipated, work, px, py, pz, lx, ly, lz, ix, iy, iz, jx, jy, jz, line, around]
+pub fn of_totals(t: &Totals) -> Vec<f64> {
+    let energies = [t.kinetic, t.strain, t.dissipated, t.external_work, t.contact];
+    let vectors = [t.momentum, t.angular_momentum, t.impulse.linear, t.impulse.angular];
+    [&energies, vectors.as_flattened(), &t.motion].concat()
 }
 
 /// The other way round.
 pub fn totals(numbers: &[f64]) -> Option<Totals> {
-    let &[
+    let (&[kinetic, strain, dissipated, external_work, contact], rest) = numbers.split_first_chunk()?;
+    let (vectors, motion) = rest.split_first_chunk::<12>()?;
+    let vector = |index: usize| std::array::from_fn(|i| vectors[3 * index + i]);
+    let motion: [f64; 2] = motion.try_into().ok()?;
+    let (momentum, angular_momentum) = (vector(0), vector(1));
+    let impulse = Impulse { linear: vector(2), angular: vector(3) };
+    Some(Totals {
         kinetic,
         strain,
         dissipated,
         external_work,
-        px,
-        py,
-        pz,
-        lx,
-        ly,
-        lz,
-        ix,
-        iy,
-        iz,
-        jx,
-        jy,
-        jz,
-        line,
-        around,
-    ] = numbers
-    else {
-        return None;
-    };
-    let (momentum, angular_momentum) = ([px, py, pz], [lx, ly, lz]);
-    let impulse = Impulse { linear: [ix, iy, iz], angular: [jx, jy, jz] };
-    let motion = [line, around];
-    Some(Totals { kinetic, strain, dissipated, external_work, momentum, angular_momentum, impulse, motion })
+        contact,
+        momentum,
+        angular_momentum,
+        impulse,
+        motion,
+    })
 }

@@ -1,0 +1,129 @@
+//! `[[contact]]`: how bodies meet.
+
+use super::body::Body;
+use super::choices::Family;
+use super::names::find;
+use super::scope::Scope;
+use super::tool::Tool;
+use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::contact as keys;
+use crate::source::Place;
+use crate::written::{Node, Section, Table, Value};
+
+/// How two bodies meet, by their numbers: bodies in the order of the file, then tools.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// The bodies, the smaller number first; twice the same for a body that touches itself.
+    pub bodies: [usize; 2],
+    /// Coefficient of friction; `None` if they pass through each other.
+    pub friction: Option<f64>,
+    /// Its header in the case file.
+    pub place: Place,
+}
+
+/// All meetings that the case speaks of.
+pub(crate) fn read(
+    sections: &[Section<'_>],
+    scope: &Scope,
+    names: &[Option<&str>],
+    problems: &mut Problems,
+) -> Vec<Contact> {
+    let mut all: Vec<Contact> = Vec::new();
+    for section in sections {
+        section.only(keys::TABLE.keys, problems);
+        let bodies = problems.keep(section.need(keys::BODIES.name).and_then(|node| pair(node, names)));
+        let friction = problems.keep(friction(section, scope));
+        let (Some(bodies), Some(friction)) = (bodies, friction) else { continue };
+        if all.iter().any(|other| other.bodies == bodies) {
+            problems
+                .0
+                .push(Diagnostic::at(section.place, "these bodies meet in another [[contact]] already"));
+        }
+        all.push(Contact { bodies, friction, place: section.place });
+    }
+    all
+}
+
+/// Refuses increments of load where bodies may touch: their balance of forces does not know contact.
+pub(crate) fn refuse_statics(
+    root: &Table,
+    (contacts, bodies, tools): (&[Contact], usize, usize),
+    problems: &mut Problems,
+) {
+    let Some(node) = root.get("quasi_static") else { return };
+    let said = |one, other| contacts.iter().find(|contact| contact.bodies == [one, other]);
+    let pairs = (0..bodies + tools).flat_map(|other| (0..=other).map(move |one| (one, other)));
+    let touch = |&(one, other): &(usize, usize)| match said(one, other) {
+        Some(contact) => contact.friction.is_some(),
+        None => one != other && one < bodies,
+    };
+    if pairs.into_iter().any(|pair| touch(&pair)) {
+        problems.0.push(
+            Diagnostic::at(node.place, "increments that are held until forces balance do not know contact, and bodies or tools of this case may touch")
+                .help("move the tools slowly, with [damping] if it rings; or let what does not meet pass through each other with [[contact]] ignore = true"),
+        );
+    }
+}
+
+fn pair(node: &Node, names: &[Option<&str>]) -> Result<[usize; 2], Diagnostic> {
+    let wrong = || {
+        Diagnostic::at(
+            node.place,
+            format!("`bodies` has to be a list of one or two names, found {}", node.found()),
+        )
+        .help("for example bodies = [\"strip\", \"punch\"]; one body alone touches itself")
+    };
+    let Value::Array(items) = &node.value else { return Err(wrong()) };
+    let numbers =
+        items.iter().map(|item| find(item, "body or tool", names)).collect::<Result<Vec<_>, _>>()?;
+    match numbers.as_slice() {
+        [one] => Ok([*one, *one]),
+        [one, other] if one == other => {
+            Err(Diagnostic::at(node.place, "a body that touches itself is named once"))
+        }
+        [one, other] => Ok([*one.min(other), *one.max(other)]),
+        _ => Err(wrong()),
+    }
+}
+
+fn friction(section: &Section<'_>, scope: &Scope) -> Result<Option<f64>, Diagnostic> {
+    let friction = scope.get(section, &keys::FRICTION)?;
+    match section.get(keys::IGNORE.name) {
+        None => Ok(Some(friction.unwrap_or(0.0))),
+        Some(Node { value: Value::Bool(true), place, .. }) => match friction {
+            None => Ok(None),
+            Some(_) => Err(Diagnostic::at(*place, "bodies that pass through each other have no `friction`")),
+        },
+        Some(node) => {
+            Err(Diagnostic::at(node.place, format!("`ignore` has to be `true`, found {}", node.found())))
+        }
+    }
+}
+
+/// Refuses meetings that contact cannot arrange.
+pub(crate) fn check(contacts: &[Contact], bodies: &[Body], tools: &[Tool], problems: &mut Problems) {
+    let updated = |i: usize| bodies.get(i).is_some_and(|b| b.scheme.formulation.family() == Family::Updated);
+    let name = |i: usize| match bodies.get(i) {
+        Some(body) => body.name.as_str(),
+        None => tools.get(i - bodies.len()).map_or("", |tool| tool.name.as_str()),
+    };
+    for contact in contacts {
+        let [one, other] = contact.bodies;
+        let rigid = |i: usize| i >= bodies.len();
+        let message = if rigid(one) && one == other {
+            format!("`{}` is rigid: it cannot touch itself", name(one))
+        } else if rigid(one) && rigid(other) {
+            format!("`{}` and `{}` are rigid: there is no force between them", name(one), name(other))
+        } else if updated(one) && one == other {
+            format!("`{}` is updated Lagrangian: it touches itself by its own pairs", name(one))
+        } else if updated(one) && updated(other) {
+            let (one, other) = (name(one), name(other));
+            format!(
+                "`{one}` and `{other}` are updated Lagrangian: they touch by ordinary pairs, without friction"
+            )
+        } else {
+            continue;
+        };
+        problems.0.push(Diagnostic::at(contact.place, message).help("remove this [[contact]]"));
+    }
+}
