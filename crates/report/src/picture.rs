@@ -199,6 +199,11 @@ mod tests {
         image.pixels().chunks(3).any(|pixel| pixel == colour)
     }
 
+    /// How many pixels have this colour: edges that are averaged may have any here and there.
+    fn count(image: &Image, colour: [u8; 3]) -> usize {
+        image.pixels().chunks(3).filter(|pixel| *pixel == colour).count()
+    }
+
     #[test]
     fn broken_frames_are_drawn_without_a_panic() {
         let huge = f64::MAX;
@@ -251,8 +256,8 @@ mod tests {
         frame.arrays.push(Array::vector("Displacement", "m", vec![[-1.5, 0.0, 0.0], [0.0; 3]]));
         let options = Picture { undeformed: true, size: 400, ..Picture::default() };
         let image = picture(&frame, &options);
-        assert!(shows(&image, PALE) && shows(&image, ColourMap::amounts().at(1.0)));
-        assert!(!shows(&picture(&frame, &Picture { undeformed: false, ..options }), PALE));
+        assert!(count(&image, PALE) > 500 && shows(&image, ColourMap::amounts().at(1.0)));
+        assert!(count(&picture(&frame, &Picture { undeformed: false, ..options }), PALE) < 50);
     }
 
     #[test]

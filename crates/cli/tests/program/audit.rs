@@ -78,6 +78,7 @@ fn the_books_are_tables_and_a_picture() {
     let expected = [
         "kinetic [J]",
         "strain [J]",
+        "contact [J]",
         "dissipated [J]",
         "external work [J]",
         "residual [J]",

@@ -26,7 +26,7 @@ fn made(ended: &Ended) -> Vec<&str> {
 fn pictures_and_plots_come_again_as_they_were() {
     let folder = finished();
     let results = folder.path().join("out/block");
-    let names = ["start.png", "middle.png", "end.png", "tip.svg"];
+    let names = ["start.png", "middle.png", "end.png", "audit.svg", "tip.svg"];
     let before = names.map(|name| fs::read(results.join(name)).expect("made by the run"));
     names.iter().for_each(|name| fs::remove_file(results.join(name)).expect("it was there"));
     let told = report(folder.path(), &[]).with(0);
@@ -49,9 +49,9 @@ fn fields_frames_views_and_animations_are_as_asked() {
         .iter()
         .flat_map(|field| [0, 2, 3].map(|number| format!("frame-{number:06}-{field}.png")))
         .collect();
-    expected.push("tip.svg".to_string());
+    expected.extend(["audit.svg", "tip.svg"].map(str::to_string));
     assert_eq!(made(&told), expected);
-    assert_eq!(made(&ask(&["--animation", "gif"]).with(0)), ["animation.gif", "tip.svg"]);
+    assert_eq!(made(&ask(&["--animation", "gif"]).with(0)), ["animation.gif", "audit.svg", "tip.svg"]);
     let gif = fs::read(folder.path().join("pictures/animation.gif")).expect("an animation");
     assert!(gif.starts_with(b"GIF89a"));
     let told = ask(&["--animation", "frames", "--view", "top", "--range", "0,1e6"]).with(0);
@@ -73,7 +73,7 @@ fn wrong_wishes_are_told_apart() {
     ] {
         let told = report(folder.path(), options).with(1);
         assert!(told.stderr.contains(words), "{}", told.stderr);
-        assert_eq!(made(&told), ["tip.svg"], "what can be made is");
+        assert_eq!(made(&told), ["audit.svg", "tip.svg"], "what can be made is");
     }
     for options in [
         ["--frames", "first"],
@@ -111,7 +111,7 @@ fn damage_is_named_and_the_rest_is_drawn() {
     for words in ["manifest.json", "particles.pvd", "tip.csv"] {
         assert!(told.stderr.contains(words), "{words}: {}", told.stderr);
     }
-    assert_eq!(made(&told), ["end.png"]);
+    assert_eq!(made(&told), ["end.png", "audit.svg"]);
 }
 
 #[test]

@@ -54,7 +54,7 @@ const ROWS: &[(&str, &str, &str)] = &[
         "region = { ball = { center = [9, 9], radius = 1 } }",
         "no particle is in its region",
     ),
-    ("at = [0.02, 0.005]", "at = [0.02, 0.005]\n@region = \"foot\"", "found both `at` and `region`"),
+    ("at = [0.02, 0.005]", "at = [0.02, 0.005]\n@region = \"foot\"", "found `at` and `region`"),
     (
         "[[probe]]",
         "@[[initial]]\nregion = { ball = { center = [9, 9], radius = 1 } }\nvelocity = [1, 0]\n[[probe]]",

@@ -156,10 +156,11 @@ impl Simulation {
 
     /// One step in which the load has a clock of its own, which is then that of the simulation.
     fn step_with(&mut self, load: Option<Load>, kinetic: Option<&mut Kinetic>) -> Result<(), Diverged> {
-        let (before, dt) = (self.time, self.dt);
+        let (before, dt, step) = (self.time, self.dt, self.steps + 1);
+        let time = load.map_or(before + dt, |_| before);
         self.halves(Now { t: before, dt }, load, kinetic).map_err(|diverged| Diverged {
-            time: load.map_or(before + dt, |_| before),
-            step: self.steps + 1,
+            time,
+            step,
             ..diverged
         })
     }

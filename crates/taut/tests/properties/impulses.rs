@@ -106,7 +106,7 @@ fn missing(start: &Totals, now: &Totals) -> (f64, f64) {
 fn worst(mut simulation: Simulation) -> ((f64, f64), Totals) {
     let (start, mut worst) = (simulation.totals(), (0.0, 0.0));
     for _ in 0..STEPS {
-        simulation.step().expect("stable");
+        simulation.step().unwrap_or_else(|stopped| panic!("{stopped}: {stopped:?}"));
         let now = missing(&start, &simulation.totals());
         worst = (f64::max(worst.0, now.0), f64::max(worst.1, now.1));
     }

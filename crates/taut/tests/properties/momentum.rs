@@ -28,7 +28,7 @@ fn drift(simulation: &mut Simulation, (linear, angular): (f64, f64)) -> (f64, f6
     let start = simulation.totals();
     let mut worst = (0.0, 0.0);
     for _ in 0..STEPS {
-        simulation.step().expect("stable");
+        simulation.step().unwrap_or_else(|stopped| panic!("{stopped}: {stopped:?}"));
         let now = simulation.totals();
         worst = (
             f64::max(worst.0, change(now.momentum, start.momentum) / linear),
