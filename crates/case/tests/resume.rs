@@ -167,6 +167,13 @@ fn on(step: u64, out: &Path) -> Result<(), RunError> {
     case::run::resume(run, Some(1), &checkpoints, &mut observer).map(drop)
 }
 
+/// The first line that differs.
+fn differing(one: &[u8], other: &[u8]) -> String {
+    let [one, other] = [one, other].map(String::from_utf8_lossy);
+    let lines = one.lines().zip(other.lines()).enumerate().find(|(_, (a, b))| a != b);
+    lines.map_or_else(|| "in length".to_string(), |(i, (a, b))| format!("line {}: {a} and {b}", i + 1))
+}
+
 /// Undisturbed, and stopped twice.
 fn same_bits(text: &str, numbers: Numbers) {
     let scratch = tempfile::tempdir().expect("a folder");
@@ -184,7 +191,12 @@ fn same_bits(text: &str, numbers: Numbers) {
     assert_eq!(whole.keys().collect::<Vec<_>>(), parts.keys().collect::<Vec<_>>());
     assert!(whole.len() >= 10, "frames and tables");
     for (name, bytes) in &whole {
-        assert!(*bytes == parts[name], "{} differs\n{text}", name.display());
+        assert!(
+            *bytes == parts[name],
+            "{} differs: {}\n{text}",
+            name.display(),
+            differing(bytes, &parts[name])
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use crate::builtin::{colour, read};
 use crate::say;
 use case::Case;
 use case::run::{Estimate, RunError, estimate};
-use report::{Picture, View, picture};
+use report::{Picture, View, encoded, picture};
 
 /// Prints what a run would be.
 pub fn check(options: &TrialOptions) -> Result<(), Failure> {
@@ -60,7 +60,7 @@ fn print(case: &Case, e: &Estimate) {
 fn memory(case: &Case, e: &Estimate) -> Option<f64> {
     let view = (case.dimension == 3).then(View::default);
     let _others = vec![e.frame.clone(); 2];
-    drop(picture(&e.frame, &Picture { view, ..Picture::default() }));
+    drop(encoded(&picture(&e.frame, &Picture { view, ..Picture::default() })));
     e.memory()
 }
 

@@ -163,12 +163,16 @@ impl Font {
 /// # Errors
 /// [`ReportError::Write`] if the file cannot be written.
 pub fn write_png(image: &Image, path: &Path) -> Result<(), ReportError> {
-    let bytes = encode(image)
+    let bytes = encoded(image)
         .map_err(|cause| ReportError::Draw { what: path.display().to_string(), cause: cause.to_string() })?;
     Ok(output::write_atomically(path, &bytes)?)
 }
 
-fn encode(image: &Image) -> Result<Vec<u8>, png::EncodingError> {
+/// The bytes of the PNG file that [`write_png`] writes.
+///
+/// # Errors
+/// What the encoder says, for an image without pixels.
+pub fn encoded(image: &Image) -> Result<Vec<u8>, png::EncodingError> {
     let mut palette = Palette::new([image.pixels()], MOST);
     let indices = palette.indices(&image.pixels);
     let mut bytes = Vec::new();

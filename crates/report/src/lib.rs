@@ -25,7 +25,7 @@ pub use animation::write_gif;
 pub use audit::plot_audit;
 pub use error::ReportError;
 pub use field::{components, split_field};
-pub use image::{Image, write_png};
+pub use image::{Image, encoded, write_png};
 pub use picture::{Picture, picture, typical_range};
 pub use plot::plot_probe;
 pub use range::Range;

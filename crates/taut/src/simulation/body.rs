@@ -124,6 +124,13 @@ pub fn total_body(
     }
 }
 
+/// A controlled form for these particles.
+fn among<M: Hyperelastic, const D: usize>(form: Ganzenmueller<M>, points: &[Point<D>]) -> Ganzenmueller<M> {
+    let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
+    let volume: Vec<f64> = points.iter().map(|p| p.volume).collect();
+    form.among(columns.each_ref().map(Vec::as_slice), &volume)
+}
+
 struct TotalBody<'a> {
     points: Points<'a>,
     moduli: Moduli,
@@ -151,7 +158,13 @@ impl TotalBody<'_> {
         match form {
             TotalForm::HourglassFree(_) => None,
             TotalForm::Nested => Some(self.with(Nested::new(material, kernel.h()))),
-            TotalForm::Ganzenmueller(alpha) => Some(self.with(Ganzenmueller::new(material, kernel, alpha))),
+            TotalForm::Ganzenmueller(alpha) => {
+                let controlled = Ganzenmueller::new(material, kernel, alpha);
+                Some(self.with(match self.points {
+                    Points::Two(points) => among(controlled, points),
+                    Points::Three(points) => among(controlled, points),
+                }))
+            }
         }
     }
 

@@ -9,7 +9,8 @@ use crate::formulation::kick::Mover;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::material::Hyperelastic;
-use crate::math::{Real, Tensor};
+use crate::math::{Real, Tensor, Vector};
+use crate::neighbours::{Adjacency, Lattice, Search};
 use crate::pass::{Now, Pair, PairSum, Update};
 use crate::run::Run;
 
@@ -27,13 +28,46 @@ pub struct Ganzenmueller<M> {
     pub kernel: Kernel,
     /// The strength of the control.
     pub alpha: f64,
+    /// rho0 omega^2 h^2 of its stiffest mode over alpha E.
+    pub coupling: f64,
 }
+
+/// On a lattice the stiffest mode of the control alternates along one axis: rho0 omega^2 h^2 = 0.71 alpha E (2 alpha E sum W V h^2 (e_x/R)^2 over the
+/// neighbours that move against it; h = 1.15 dp in 2D, less in 3D).
+const ON_LATTICE: f64 = 0.71;
 
 impl<M: Hyperelastic> Ganzenmueller<M> {
     /// With the paper's damping and this strength of the control (10 in the trials of the paper's cases).
     #[must_use]
     pub fn new(material: M, kernel: Kernel, alpha: f64) -> Self {
-        Self { solid: Solid::new(material, kernel.h()), kernel, alpha }
+        Self { solid: Solid::new(material, kernel.h()), kernel, alpha, coupling: ON_LATTICE }
+    }
+
+    /// The same for particles of these volumes (m^3) at these places (m) that stand on no lattice. Gershgorin, block by block:
+    /// rho0 omega^2 <= alpha E max_a (|sum_b c_ab e (x) e| + sum_b c_ab), c_ab = W V_b / R^2.
+    #[must_use]
+    pub fn among<const D: usize>(self, x: [&[f64]; D], volume: &[f64]) -> Self {
+        let spacing = volume.first().map_or(0.0, |v| v.powf(1.0 / D as f64));
+        let mut list = Adjacency::default();
+        let on_lattice = Lattice::detect(x, spacing).is_ok_and(|lattice| lattice.is_some());
+        // Positions that are no numbers stop the run when it starts.
+        if on_lattice || Search::new().pairs(x, self.kernel.support(), None, &mut list).is_err() {
+            return self;
+        }
+        let row = |a: usize| {
+            let (mut block, mut sum) = (Tensor::<f64, D>::from_fn(|_, _| 0.0), 0.0);
+            for &b in list.of(a) {
+                let apart = Vector::<f64, D>::from_fn(|i| x[i][a] - x[i][b as usize]);
+                let r2 = apart.norm_squared();
+                let c = self.kernel.w(r2.sqrt()) * volume[b as usize] / r2;
+                block = Tensor::from_fn(|i, j| block.0[i][j] + c * apart[i] * apart[j] / r2);
+                sum += c;
+            }
+            let rows = block.0.iter().map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
+            rows.fold(0.0, f64::max) + sum
+        };
+        let coupling = self.kernel.h().powi(2) * (0..volume.len()).map(row).fold(0.0, f64::max);
+        Self { coupling: coupling.max(ON_LATTICE), ..self }
     }
 
     fn density(&self) -> f64 {
@@ -128,13 +162,12 @@ impl<M: Hyperelastic, const D: usize> Stress<D> for Ganzenmueller<M> {
         (self.solid.corrected(f, damping, correction), S::zero())
     }
 
-    /// Springs of the control: a mode that alternates along one axis has rho0 omega^2 h^2 = 0.71 alpha E (2 alpha E sum W V h^2 (e_x/R)^2 over
-    /// the neighbours that move against it; h = 1.15 dp in 2D, less in 3D). A material alone has rho0 omega^2 h^2 < 3.5 rho0 c^2 (the
+    /// The springs of the control beside the material. A material alone has rho0 omega^2 h^2 < 3.5 rho0 c^2 (the
     /// critical Courant number is 1.06 with c), and a step of 0.6 h/c can carry 4 / 0.6^2 = 11.1 of it together.
     #[inline(always)]
     fn stiffness<S: Real>(&self, f: Tensor<S, D>) -> S {
         let material = self.solid.material.stiffness(f);
-        material.max(material.mul_add(S::of(3.5 / 11.1), S::of(self.penalty() * 0.71 / 11.1)))
+        material.max(material.mul_add(S::of(3.5 / 11.1), S::of(self.penalty() * self.coupling / 11.1)))
     }
 }
 

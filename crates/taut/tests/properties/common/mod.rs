@@ -160,7 +160,12 @@ impl Setup {
         match form {
             Form::HourglassFree => Box::new(simulation::total(points, (self.hourglass_free(D), m), t, run)),
             Form::TotalNested => Box::new(simulation::total(points, (self.total_nested(D), m), t, run)),
-            Form::Ganzenmueller => Box::new(simulation::total(points, (self.ganzenmueller(D), m), t, run)),
+            Form::Ganzenmueller => {
+                let columns: [Vec<f64>; D] = std::array::from_fn(|i| points.iter().map(|p| p.x[i]).collect());
+                let volume: Vec<f64> = points.iter().map(|p| p.volume).collect();
+                let form = self.ganzenmueller(D).among(columns.each_ref().map(Vec::as_slice), &volume);
+                Box::new(simulation::total(points, (form, m), t, run))
+            }
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
             }
