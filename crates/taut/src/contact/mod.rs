@@ -81,14 +81,24 @@ impl Contact {
         Ok(())
     }
 
+    /// Finds who is near whom now, of bodies that have been moved since contact [began](Self::begin): masses and surfaces stay those of the
+    /// set-up, which a state in single precision would round.
+    ///
+    /// # Errors
+    /// If positions are not numbers.
+    pub fn relocate(&mut self, solvers: &[Box<dyn Solver>]) -> Result<(), Diverged> {
+        self.surfaces.locate(solvers);
+        self.meet().map_err(|_| Diverged::unlisted())?;
+        self.bound();
+        Ok(())
+    }
+
     /// Changes velocities by the contact forces of a step.
     ///
     /// # Errors
     /// If positions are not numbers.
     pub fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) -> Result<(), Diverged> {
-        self.surfaces.locate(solvers);
-        self.meet().map_err(|_| Diverged::unlisted())?;
-        self.bound();
+        self.relocate(solvers)?;
         if self.facings.all.is_empty() {
             return Ok(());
         }

@@ -37,6 +37,9 @@ impl Simulation {
         for solver in &mut self.solvers {
             solver.start().map_err(|_| RestoreError::Foreign("they cannot be started"))?;
         }
+        if let Some(contact) = &mut self.contact {
+            contact.begin(&self.solvers).map_err(|_| RestoreError::Foreign("they cannot be started"))?;
+        }
         self.audit.start(&self.solvers, &self.drives, self.contact.is_some());
         let [time, dt, steps] = shelf.numbers("clock")?;
         if !(dt > 0.0 && time >= 0.0) {
@@ -66,7 +69,7 @@ impl Simulation {
     /// Contact between bodies that are where they were.
     fn touch_again(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
         let Some(contact) = &mut self.contact else { return Ok(()) };
-        contact.begin(&self.solvers).map_err(|_| RestoreError::Foreign("they cannot be started"))?;
+        contact.relocate(&self.solvers).map_err(|_| RestoreError::Foreign("they cannot be started"))?;
         let [length] = shelf.numbers("contact-length")?;
         let length = shelf.count("contact-length", length)? as usize;
         if contact.recall(&shelf.doubles("contact", length)?) {
