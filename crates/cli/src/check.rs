@@ -35,7 +35,6 @@ pub fn reckoned(options: &TrialOptions) -> Result<(Case, Estimate), Failure> {
     let case = read(&options.case)?;
     let estimate = estimate(&case, options.precision.into()).map_err(|error| match error {
         RunError::Case(error) => Failure::Input(error.render(colour())),
-        RunError::Tried(diverged) => Failure::Run(diverged.to_string()),
         error if error.is_input() => Failure::Input(error.to_string()),
         other => Failure::Run(other.to_string()),
     })?;

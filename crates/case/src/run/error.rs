@@ -50,8 +50,13 @@ pub enum RunError {
         hint: String,
     },
     /// A few steps, taken to see what a run will cost, diverged; nothing was written.
-    #[error("the first steps of this case fail: {0}")]
-    Tried(Box<Diverged>),
+    #[error("the first steps of this case fail: {diverged}{}", listed(warnings))]
+    Tried {
+        /// What happened.
+        diverged: Box<Diverged>,
+        /// What was doubtful before.
+        warnings: Vec<String>,
+    },
     /// The arrangement of particles could not be measured.
     #[error("the disorder of the particles cannot be measured: {0}")]
     Disorder(#[from] DisorderError),
@@ -87,6 +92,11 @@ fn stopped(time: f64, step: u64, results: &Path, checkpoint: &Result<PathBuf, St
         ),
         Err(why) => format!("{told}, but without a checkpoint: {why}"),
     }
+}
+
+/// Warnings below a message, a line each.
+fn listed(warnings: &[String]) -> String {
+    warnings.iter().map(|warning| format!("\nwarning: {warning}")).collect()
 }
 
 impl RunError {

@@ -111,7 +111,7 @@ fn of_built(case: &Case, built: Built, before: f64) -> Result<Estimate, RunError
 fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<Estimate, RunError> {
     let particles = built.particles();
     let Built { solvers, contact, drives, damping, grips, mut watch, warnings, across, .. } = built;
-    let stopped = |diverged| RunError::Tried(Box::new(diverged));
+    let stopped = |diverged| RunError::Tried { diverged: Box::new(diverged), warnings: warnings.clone() };
     let mut simulation = Simulation::new(solvers, drives).damped(damping).touching(contact);
     simulation.hold(grips);
     simulation.begin().map_err(stopped)?;

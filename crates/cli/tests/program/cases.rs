@@ -90,7 +90,6 @@ fn every_warning_of_check() {
         ("0.45", "0.499", "close to 0.5"),
         ("v0 = 10", "v0 = 90", "of its wave speed"),
         ("fixed = true", "velocity = [\"200 m/s\", 0]", "of its wave speed"),
-        ("[[boundary]]", &second.replace("0.0201", "0.0191"), "overlap at the start"),
         (shape, hole, "1 hole takes no particle away"),
         (shape, rib, "1 part of its shape holds no particle"),
         ("1.1 g/cm^3", "1.1 kg/m^3", "is the unit right?"),
@@ -99,6 +98,18 @@ fn every_warning_of_check() {
         let told = check(old, new);
         assert!(told.contains(words), "{new}: {words} is not in\n{told}");
     }
+    // Bodies that overlap by a particle push each other apart as fast as sound: the first steps fail, and the warning says why.
+    let folder =
+        with_case(&BLOCK.replace("at = [0.02, 0.005]", "body = \"block\"\nat = [0.02, 0.005]").replacen(
+            "[[boundary]]",
+            &second.replace("0.0201", "0.0191"),
+            1,
+        ));
+    let told = taut(folder.path(), &["check", "case.toml"]).with(1).stderr;
+    assert!(
+        told.contains("the first steps of this case fail") && told.contains("overlap at the start"),
+        "{told}"
+    );
     // The block is total Lagrangian; this warning belongs to the other family.
     let updated =
         BLOCK.replace("tl-hourglass-free", "ul-non-hourglass").replace("neo-hookean", "linear-elastic");
