@@ -214,3 +214,21 @@ pub struct ReportOptions {
     #[arg(long, short)]
     pub quiet: bool,
 }
+
+impl ReportOptions {
+    /// The pictures that a run makes.
+    pub fn usual(dir: PathBuf, quiet: bool) -> Self {
+        Self {
+            dir,
+            fields: vec!["VonMisesStress".to_string()],
+            frames: Vec::new(),
+            view: None,
+            undeformed: false,
+            size: None,
+            range: None,
+            animation: None,
+            out: None,
+            quiet,
+        }
+    }
+}

@@ -1,10 +1,11 @@
 //! `taut run`.
 
 use crate::Failure;
-use crate::arguments::RunOptions;
+use crate::arguments::{ReportOptions, RunOptions};
 use crate::builtin::{colour, read};
 use crate::pictures;
 use crate::progress::Watcher;
+use crate::rebuild::report;
 use crate::say;
 use crate::signals;
 use case::Case;
@@ -23,7 +24,10 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
     let (case, out, ended);
     match &options.resume {
         Some(place) => {
-            let run = Interrupted::find(place).map_err(unusable)?;
+            let run = match Interrupted::find(place) {
+                Err(ResumeError::Done(dir)) if undrawn(&dir) => return redraw(dir, options.quiet),
+                found => found.map_err(unusable)?,
+            };
             if !options.quiet {
                 let (time, step) = run.stands_at();
                 complain!("going on from {}: t = {time:.6e} s, step {step}", run.checkpoint().display());
@@ -62,6 +66,24 @@ pub fn run(options: &RunOptions) -> Result<(), Failure> {
         Err(error @ RunError::Diverged { .. }) => Err(Failure::Run(error.to_string())),
         Err(error) => Err(Failure::Run(format!("{error}{}", way_on(&out)))),
     }
+}
+
+/// Whether a run that has come to its end was killed before its pictures were drawn.
+fn undrawn(results: &Path) -> bool {
+    let tables = std::fs::read_dir(results.join("probes")).into_iter().flatten().flatten();
+    let names =
+        tables.filter_map(|table| Some(table.file_name().to_str()?.strip_suffix(".csv")?.to_string()));
+    let plots = names.map(|name| format!("{name}.svg"));
+    let pictures = ["start.png", "end.png", "audit.svg"].map(str::to_string);
+    !pictures.into_iter().chain(plots).all(|name| results.join(name).exists())
+}
+
+/// Draws what such a run did not come to.
+fn redraw(results: PathBuf, quiet: bool) -> Result<(), Failure> {
+    if !quiet {
+        complain!("the run in {} has come to its end; its pictures are drawn now", results.display());
+    }
+    report(&ReportOptions::usual(results, quiet))
 }
 
 fn unusable(error: ResumeError) -> Failure {
