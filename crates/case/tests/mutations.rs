@@ -134,7 +134,7 @@ fn wrong_types(kind: &Kind) -> Vec<&'static str> {
                 wrong.pop();
             }
         }
-        Kind::NamesOf(_) => wrong.extend(["1", "[]", "[1]", "{}", "\"one\"", "[\"nobody\"]", "[\"one\"]"]),
+        Kind::NamesOf(_) => wrong.extend(["1", "[]", "[1]", "{}", "\"one\"", "[\"nobody\"]"]),
         Kind::Flag => wrong.extend(["1", "\"true\"", "[]", "{}"]),
         Kind::True => wrong.extend(["false", "1", "\"true\"", "[]", "{}"]),
         Kind::OneOf(_) | Kind::Count => wrong.extend(["0", "-1", "1.5", "\"2\"", "[2]", "true", "{}"]),
