@@ -42,8 +42,11 @@ impl Evidence<'_> {
             }
             None => false,
         };
+        let checkpoint =
+            output::checkpoint::kept(results.path()).first().map(|path| path.display().to_string());
+        let kept = page::Kept { pictured, checkpoint };
         let facts = Facts::gather(self, culprit.as_ref());
-        results.write("diagnosis.md", page::page(self, &facts, pictured).as_bytes())?;
+        results.write("diagnosis.md", page::page(self, &facts, &kept).as_bytes())?;
         Ok(())
     }
 }

@@ -10,8 +10,16 @@ use taut::simulation::Step;
 /// Steps that the page shows; the first remembered one and the last ones.
 const SHOWN: usize = 16;
 
+/// Files that may be there.
+pub struct Kept {
+    /// Whether there is a `culprit.vtp`.
+    pub pictured: bool,
+    /// The last checkpoint.
+    pub checkpoint: Option<String>,
+}
+
 /// The page.
-pub fn page(evidence: &Evidence<'_>, facts: &Facts, pictured: bool) -> String {
+pub fn page(evidence: &Evidence<'_>, facts: &Facts, files: &Kept) -> String {
     let mut page = String::new();
     head(&mut page, evidence, facts);
     let signs = signs(evidence, facts);
@@ -19,7 +27,7 @@ pub fn page(evidence: &Evidence<'_>, facts: &Facts, pictured: bool) -> String {
     attempts(&mut page, evidence, &signs);
     steps(&mut page, evidence);
     energies(&mut page, evidence);
-    kept(&mut page, evidence, pictured);
+    kept(&mut page, evidence, files);
     page
 }
 
@@ -162,7 +170,7 @@ fn energies(page: &mut String, e: &Evidence<'_>) {
     page.push('\n');
 }
 
-fn kept(page: &mut String, e: &Evidence<'_>, pictured: bool) {
+fn kept(page: &mut String, e: &Evidence<'_>, files: &Kept) {
     page.push_str("## What was kept\n\n");
     if let Some((frames, time)) = e.writer.last_frame() {
         let _ = writeln!(
@@ -171,7 +179,10 @@ fn kept(page: &mut String, e: &Evidence<'_>, pictured: bool) {
             if frames == 1 { "" } else { "s" }
         );
     }
-    if pictured {
+    if let Some(path) = &files.checkpoint {
+        let _ = writeln!(page, "- `{path}`: the last checkpoint, a whole state from before.");
+    }
+    if files.pictured {
         page.push_str("- `culprit.vtp`: the particle (`IsCulprit`) and what is within three supports of it as the run stopped, with every field that the solver carries and the number of neighbours.\n");
     }
     page.push_str("- `audit.csv`, the tables of probes and `summary.json`, up to where it stopped.\n");
