@@ -43,7 +43,7 @@ const CHECK: usize = 16;
 pub struct About {
     /// Version of taut.
     pub taut: String,
-    /// [`hash`](crate::manifest::hash) of the case as run.
+    /// [`hash`] of the case as run.
     pub case_hash: String,
     /// `double` or `single`.
     pub precision: String,
