@@ -217,8 +217,9 @@ fn boundary(case: &Case, boundary: &Boundary) -> String {
 
 fn times(case: &Case) -> Vec<String> {
     let frames = (case.time.end / case.time.output).ceil() + 1.0;
+    let most = if case.time.apart.0 == 0 { "" } else { "at most " };
     let mut lines = vec![format!(
-        "it runs for {}, with a frame every {} ({frames:.0} frames)",
+        "it runs for {}, with a frame every {} ({most}{frames:.0} frames)",
         time(case.time.end),
         time(case.time.output)
     )];

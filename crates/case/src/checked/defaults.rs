@@ -68,6 +68,13 @@ pub(crate) const MAX_STEPS: u64 = 100_000;
 /// Frames of a run, when no interval is given: enough for a smooth film of moderate size.
 pub(crate) const FRAMES: f64 = 50.0;
 
+/// Steps from one of these frames to the next, at least: a frame costs as much as four or five steps, so that all together stay below 2 per
+/// cent of the run.
+pub(crate) const FRAME_STEPS: u64 = 300;
+
+/// But so many frames there are even in a short run.
+pub(crate) const FEWEST_FRAMES: f64 = 10.0;
+
 /// Time steps between two measurements of disorder, when no interval is given: one costs as much as 2.4 (updated Lagrangian, plane) to 5.7 (total Lagrangian, space)
 /// steps in counted instructions, so that all together stay below 1 per cent of the run.
 pub(crate) const DISORDER_STEPS: u64 = 600;
@@ -123,7 +130,10 @@ mod tests {
         assert_eq!(said(&quasi_static::MAX_STEPS), MAX_STEPS.to_string());
         assert_eq!(said(&case::ALPHA), ALPHA.to_string());
         assert_eq!(said(&case::CALIBRATION), word(CALIBRATION));
-        assert_eq!(said(&time::OUTPUT), format!("end/{FRAMES}"));
+        assert_eq!(
+            said(&time::OUTPUT),
+            format!("end/{FRAMES}, but {FRAME_STEPS} steps or end/{FEWEST_FRAMES} apart")
+        );
         assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
         let sparse =
             format!("as [time] output; disorder {DISORDER_STEPS} steps or end/{DISORDER_SAMPLES} apart");

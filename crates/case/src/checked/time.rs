@@ -14,6 +14,8 @@ pub struct Time {
     pub end: f64,
     /// Time between two frames, s.
     pub output: f64,
+    /// A frame is written so many steps, or so much time (s), after the last one at the earliest.
+    pub apart: (u64, f64),
 }
 
 /// The watch over disorder.
@@ -87,5 +89,11 @@ fn time(root: &Table, scope: &Scope, problems: &mut Problems) -> Option<Time> {
     let end = problems.keep(scope.need(&section, &keys::END));
     let output = problems.keep(scope.get(&section, &keys::OUTPUT));
     let end = end?;
-    Some(Time { end, output: output?.unwrap_or(end / defaults::FRAMES) })
+    Some(match output? {
+        Some(output) => Time { end, output, apart: (0, 0.0) },
+        None => {
+            let apart = (defaults::FRAME_STEPS, end / defaults::FEWEST_FRAMES);
+            Time { end, output: end / defaults::FRAMES, apart }
+        }
+    })
 }

@@ -196,7 +196,7 @@ pub(crate) mod time {
     pub(crate) const OUTPUT: Key = Key::new(
         "output",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("end/50"),
+        Need::Default("end/50, but 300 steps or end/10 apart"),
         "Time between two frames for ParaView.",
     );
     pub(crate) const CFL: Key = Key::new(

@@ -26,6 +26,8 @@ pub struct Due {
     look: f64,
     probes: Vec<f64>,
     framed: Option<f64>,
+    /// Steps at the last frame.
+    framed_at: u64,
     /// Time and steps at which disorder was measured last.
     measured: Option<(f64, u64)>,
 }
@@ -51,16 +53,18 @@ impl Due {
     /// As numbers, to be kept; what is not known is no number.
     pub fn saved(&self) -> Vec<f64> {
         let (when, at) = self.measured.map_or((f64::NAN, 0.0), |(when, at)| (when, at as f64));
-        let few = [self.frame, self.look, self.framed.unwrap_or(f64::NAN), when, at];
+        let framed = self.framed.unwrap_or(f64::NAN);
+        let few = [self.frame, self.look, framed, self.framed_at as f64, when, at];
         [&few, self.probes.as_slice()].concat()
     }
 
     /// From numbers that were kept; `None` if they are too few.
     pub fn restored(numbers: &[f64]) -> Option<Self> {
-        let &[frame, look, framed, when, at, ref probes @ ..] = numbers else { return None };
+        let &[frame, look, framed, framed_at, when, at, ref probes @ ..] = numbers else { return None };
         let framed = (!framed.is_nan()).then_some(framed);
         let measured = (!when.is_nan()).then_some((when, at as u64));
-        Some(Self { frame, look, probes: probes.to_vec(), framed, measured })
+        let framed_at = framed_at as u64;
+        Some(Self { frame, look, probes: probes.to_vec(), framed, framed_at, measured })
     }
 }
 
@@ -120,7 +124,8 @@ impl<'a> Recorder<'a> {
                 self.outbox.sheet.samples.extend(sample);
             }
         }
-        let (frame, look) = (time >= self.due.frame, time >= self.due.look);
+        let frame = time >= self.due.frame && self.is_apart(simulation);
+        let look = time >= self.due.look;
         if look {
             self.due.look = later(self.due.look, self.case.monitor.interval, time);
         }
@@ -131,6 +136,15 @@ impl<'a> Recorder<'a> {
             self.copy(simulation, look, frame);
         }
         self.outbox.post()
+    }
+
+    /// Whether the last frame is far enough back for the next one; equilibria of a quasi-static run always are.
+    fn is_apart(&self, simulation: &Simulation) -> bool {
+        let (steps, time) = self.case.time.apart;
+        self.case.quasi_static.is_some()
+            || self.due.framed.is_none_or(|framed| {
+                simulation.steps() >= self.due.framed_at + steps || simulation.time() >= framed + time
+            })
     }
 
     /// Whether disorder is to be measured at a look: not again at once, unless the case says how often.
@@ -154,7 +168,7 @@ impl<'a> Recorder<'a> {
         let means = self.meters[1].iter_mut().enumerate().filter_map(|(i, m)| m.mean(simulation, i));
         sheet.reactions.extend(means);
         if frame {
-            self.due.framed = Some(time);
+            (self.due.framed, self.due.framed_at) = (Some(time), step);
         }
     }
 

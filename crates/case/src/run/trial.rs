@@ -130,7 +130,7 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let steps = steps(case, dt);
     // A run that is long enough packs checkpoints.
     let packed = (per_step * steps > INTERVAL.as_secs_f64()).then(|| draft(&simulation));
-    let bytes = output::encoded_size(&last.0, (case.time.output / dt) as u64)? as f64;
+    let bytes = output::encoded_size(&last.0, (case.time.end / frames(case, dt) / dt) as u64)? as f64;
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
     drop((sheet, last, kept, packed));
@@ -141,7 +141,7 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
         steps,
         threads,
         seconds: per_step * steps,
-        disk: bytes * (case.time.end / case.time.output).ceil(),
+        disk: bytes * frames(case, dt),
         across,
         warnings,
         frame: first.0,
@@ -161,6 +161,13 @@ fn steps(case: &Case, dt: f64) -> f64 {
     let longest = edges.filter(|edge| edge.is_finite()).fold(case.spacing, f64::max);
     // A wave takes a step of 0.6 h, h = 1.15 spacings.
     f64::from(statics.increments) * CROSSINGS * longest / (0.69 * case.spacing)
+}
+
+/// Frames of a run with this time step, about.
+fn frames(case: &Case, dt: f64) -> f64 {
+    let (steps, time) = case.time.apart;
+    let apart = if steps == 0 { 0.0 } else { time.min(steps as f64 * dt) };
+    (case.time.end / case.time.output.max(apart)).ceil()
 }
 
 /// A frame of the present state, and the sheet that it came from.
