@@ -18,6 +18,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("contact-fold", include_str!("../../../cases/contact-fold.toml")),
     ("tl-pull-2d", include_str!("../../../cases/tl-pull-2d.toml")),
     ("tl-pull-3d", include_str!("../../../cases/tl-pull-3d.toml")),
+    ("tl-flag", include_str!("../../../cases/tl-flag.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),

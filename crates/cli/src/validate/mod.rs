@@ -24,6 +24,7 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-plate", include_str!("../../../../validation/tl-plate/accept.toml")),
     ("tl-bending-column", include_str!("../../../../validation/tl-bending-column/accept.toml")),
     ("tl-twisting-column", include_str!("../../../../validation/tl-twisting-column/accept.toml")),
+    ("tl-flag", include_str!("../../../../validation/tl-flag/accept.toml")),
     ("tl-punch", include_str!("../../../../validation/tl-punch/accept.toml")),
     ("contact-hertz", include_str!("../../../../validation/contact-hertz/accept.toml")),
     ("contact-sphere", include_str!("../../../../validation/contact-sphere/accept.toml")),
