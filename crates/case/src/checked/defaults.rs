@@ -68,19 +68,15 @@ pub(crate) const MAX_STEPS: u64 = 100_000;
 /// Frames of a run, when no interval is given: enough for a smooth film of moderate size.
 pub(crate) const FRAMES: f64 = 50.0;
 
-/// Steps from one of these frames to the next, at least: a frame costs as much as four or five steps, so that all together stay below 2 per
-/// cent of the run.
-pub(crate) const FRAME_STEPS: u64 = 300;
+/// Steps from one of these frames to the next, at least, since a frame and a look at the energies cost as much as eight or nine steps (docs/performance.md).
+pub(crate) const FRAME_STEPS: u64 = 500;
 
 /// But so many frames there are even in a short run.
-pub(crate) const FEWEST_FRAMES: f64 = 10.0;
+pub(crate) const FEWEST_FRAMES: f64 = 5.0;
 
 /// Time steps between two measurements of disorder, when no interval is given: one costs as much as 2.4 (updated Lagrangian, plane) to 5.7 (total Lagrangian, space)
 /// steps in counted instructions, so that all together stay below 1 per cent of the run.
 pub(crate) const DISORDER_STEPS: u64 = 600;
-
-/// Measurements of disorder of a run too short for that.
-pub(crate) const DISORDER_SAMPLES: f64 = 10.0;
 
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
@@ -135,8 +131,7 @@ mod tests {
             format!("end/{FRAMES}, but {FRAME_STEPS} steps or end/{FEWEST_FRAMES} apart")
         );
         assert_eq!(said(&probe::INTERVAL), PROBE_INTERVAL.to_string());
-        let sparse =
-            format!("as [time] output; disorder {DISORDER_STEPS} steps or end/{DISORDER_SAMPLES} apart");
+        let sparse = format!("as [time] output; disorder {DISORDER_STEPS} steps apart");
         assert_eq!(said(&monitor::INTERVAL), sparse);
         for (key, value) in
             [(&monitor::ZIGZAG, ZIGZAG), (&monitor::BOND_MIN, BOND_MIN), (&monitor::BROKEN, BROKEN)]

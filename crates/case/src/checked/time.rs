@@ -44,7 +44,7 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Opti
         broken: defaults::BROKEN,
         stop: false,
         interval: time.output,
-        apart: (defaults::DISORDER_STEPS, time.end / defaults::DISORDER_SAMPLES),
+        apart: (defaults::DISORDER_STEPS, f64::INFINITY),
     };
     let Some(node) = root.get("monitor") else { return Some((time, monitor)) };
     let section = problems.keep(Section::of(node, "[monitor]"))?;

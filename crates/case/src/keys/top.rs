@@ -196,7 +196,7 @@ pub(crate) mod time {
     pub(crate) const OUTPUT: Key = Key::new(
         "output",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("end/50, but 300 steps or end/10 apart"),
+        Need::Default("end/50, but 500 steps or end/5 apart"),
         "Time between two frames for ParaView.",
     );
     pub(crate) const CFL: Key = Key::new(
@@ -251,7 +251,7 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output; disorder 600 steps or end/10 apart"),
+        Need::Default("as [time] output; disorder 600 steps apart"),
         "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {

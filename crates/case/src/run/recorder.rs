@@ -125,7 +125,8 @@ impl<'a> Recorder<'a> {
             }
         }
         let frame = time >= self.due.frame && self.is_apart(simulation);
-        let look = time >= self.due.look;
+        // Unless the case says how often, energies are looked at with the frames.
+        let look = time >= self.due.look && (frame || self.case.monitor.apart.0 == 0);
         if look {
             self.due.look = later(self.due.look, self.case.monitor.interval, time);
         }
