@@ -27,7 +27,7 @@ fn charts(title: &str, table: &Table, svg: &mut String) -> Drawn {
     let [energies, rest, linear, angular] = tables(table);
     let heads = [
         format!("{title}: energies"),
-        "initial + external work - dissipated - kinetic - strain".to_string(),
+        "initial + external work - dissipated - kinetic - strain - contact".to_string(),
         "momentum - initial - impulse".to_string(),
         "angular momentum - initial - angular impulse".to_string(),
     ];
@@ -49,8 +49,13 @@ fn tables(table: &Table) -> [Table; 4] {
         times: table.times.clone(),
         columns: table.columns.iter().filter_map(|column| unaccounted(table, column, (of, given))).collect(),
     };
+    // A line of zeros says nothing.
+    let touched = table.columns.iter().any(|c| c.name == "contact" && c.values.iter().any(|v| *v != 0.0));
     [
-        only(&|name| ["kinetic", "strain", "dissipated", "external work"].contains(&name)),
+        only(&|name| {
+            ["kinetic", "strain", "dissipated", "external work"].contains(&name)
+                || (name == "contact" && touched)
+        }),
         only(&|name| name == "residual"),
         missing("momentum ", "impulse "),
         missing("angular momentum ", "angular impulse "),
