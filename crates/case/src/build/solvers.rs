@@ -97,6 +97,9 @@ where
             };
             let form = match scheme.formulation {
                 Formulation::UlNested => UpdatedForm::Nested,
+                Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+                Formulation::UlLaplacian => UpdatedForm::Laplacian,
+                Formulation::UlGeneralised => UpdatedForm::Generalised,
                 _ => UpdatedForm::NonHourglass,
             };
             let stress = Hypoelastic { plane: plane(case) };

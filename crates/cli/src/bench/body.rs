@@ -121,5 +121,11 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::NonHourglass::new(stress, D))
         }
         Form::Updated(UpdatedForm::Nested, _) => operations::<D>(&updated::Nested { stress }),
+        Form::Updated(UpdatedForm::ArtificialStress, _) => {
+            let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
+            operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
+        }
+        Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
+        Form::Updated(UpdatedForm::Laplacian, _) => operations::<D>(&updated::Laplacian { stress }),
     }
 }

@@ -34,7 +34,7 @@ pub struct Subject {
     pub numbers: Numbers,
 }
 
-const FORMS: [Form; 7] = [
+const FORMS: [Form; 8] = [
     Form::Total(TotalForm::HourglassFree(Calibration::Paper)),
     Form::Total(TotalForm::Nested),
     Form::Total(TotalForm::Ganzenmueller(10.0)),
@@ -42,6 +42,7 @@ const FORMS: [Form; 7] = [
     Form::Updated(UpdatedForm::NonHourglass, Stepping::Single),
     Form::Updated(UpdatedForm::Nested, Stepping::Dual),
     Form::Updated(UpdatedForm::Nested, Stepping::Single),
+    Form::Updated(UpdatedForm::Generalised, Stepping::Dual),
 ];
 
 impl Subject {
@@ -75,6 +76,14 @@ impl Subject {
             Form::Updated(UpdatedForm::NonHourglass, Stepping::Single) => "ul-non-hourglass/single-steps",
             Form::Updated(UpdatedForm::Nested, Stepping::Dual) => "ul-nested/dual-steps",
             Form::Updated(UpdatedForm::Nested, Stepping::Single) => "ul-nested/single-steps",
+            Form::Updated(UpdatedForm::ArtificialStress, Stepping::Dual) => "ul-artificial-stress/dual-steps",
+            Form::Updated(UpdatedForm::ArtificialStress, Stepping::Single) => {
+                "ul-artificial-stress/single-steps"
+            }
+            Form::Updated(UpdatedForm::Generalised, Stepping::Dual) => "ul-generalised/dual-steps",
+            Form::Updated(UpdatedForm::Generalised, Stepping::Single) => "ul-generalised/single-steps",
+            Form::Updated(UpdatedForm::Laplacian, Stepping::Dual) => "ul-laplacian/dual-steps",
+            Form::Updated(UpdatedForm::Laplacian, Stepping::Single) => "ul-laplacian/single-steps",
         };
         let arrangement = match self.arrangement {
             Arrangement::Lattice => "lattice",
@@ -103,9 +112,9 @@ mod tests {
     #[test]
     fn names_are_unique_and_words_choose() {
         let names: BTreeSet<String> = Subject::all().iter().map(Subject::name).collect();
-        assert_eq!(names.len(), 48);
+        assert_eq!(names.len(), 56);
         let words = |words: &[&str]| chosen(&words.iter().map(ToString::to_string).collect::<Vec<_>>()).len();
-        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (48, 12, 0));
+        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (56, 12, 0));
         assert_eq!(words(&["ul-nested/dual-steps/2d/lattice/single"]), 1);
     }
 }

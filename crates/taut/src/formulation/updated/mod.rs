@@ -1,12 +1,20 @@
 //! Updated Lagrangian formulations: the kernel follows the particles. One set of particles holds all bodies; they
 //! touch through the pressure and dissipation of ordinary pairs, shear acts only inside a body.
 
+mod accumulated;
+mod artificial_stress;
+mod generalised;
+mod integrated;
 mod kick;
+mod laplacian;
 mod motion;
 mod nested;
 mod non_hourglass;
 mod pressure;
 
+pub use artificial_stress::ArtificialStress;
+pub use generalised::Generalised;
+pub use laplacian::Laplacian;
 pub use nested::Nested;
 pub use non_hourglass::NonHourglass;
 
@@ -47,6 +55,18 @@ pub(crate) const FIELDS: &[Quantity] = &[
     Quantity::ExternalWork,
 ];
 
+/// These, and what one form has besides; `N` is how many that makes.
+pub(crate) const fn fields_and<const N: usize>(more: &[Quantity]) -> [Quantity; N] {
+    assert!(N == FIELDS.len() + more.len());
+    let mut all = [Quantity::Position; N];
+    let mut i = 0;
+    while i < N {
+        all[i] = if i < FIELDS.len() { FIELDS[i] } else { more[i - FIELDS.len()] };
+        i += 1;
+    }
+    all
+}
+
 /// The shear stress of a linear elastic solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Hypoelastic {
@@ -73,12 +93,18 @@ impl Hypoelastic {
         s: Tensor<S, D>,
         shear: S,
     ) -> ShearRate<S, D> {
+        let spin = gradient.antisymmetric();
+        let rate = self.of_strain(gradient.symmetric(), shear);
+        ShearRate { s: rate.s + spin.mul(s) - s.mul(spin), ..rate }
+    }
+
+    /// 2G dev of a (rate of) strain. In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
+    #[inline(always)]
+    pub fn of_strain<S: Real, const D: usize>(&self, strain: Tensor<S, D>, shear: S) -> ShearRate<S, D> {
         let d = self.plane.d(D);
-        let (strain, spin) = (gradient.symmetric(), gradient.antisymmetric());
         let mean = strain.trace() * S::of(-1.0 / d);
         let twice = shear + shear;
-        let s = strain.plus_diagonal(mean).times(twice) + spin.mul(s) - s.mul(spin);
-        // In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
+        let s = strain.plus_diagonal(mean).times(twice);
         ShearRate { s, axial: if d == 2.0 { S::zero() } else { twice * mean } }
     }
 }

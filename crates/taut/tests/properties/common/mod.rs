@@ -40,11 +40,29 @@ pub enum Form {
     NonHourglass,
     /// `ul-nested`.
     UpdatedNested,
+    /// `ul-artificial-stress`.
+    ArtificialStress,
+    /// `ul-laplacian`.
+    Laplacian,
+    /// `ul-generalised`.
+    Generalised,
 }
 
 /// All of them.
-pub const FORMS: [Form; 5] =
-    [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller, Form::NonHourglass, Form::UpdatedNested];
+pub const FORMS: [Form; 8] = [
+    Form::HourglassFree,
+    Form::TotalNested,
+    Form::Ganzenmueller,
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+];
+
+/// The updated Lagrangian ones.
+pub const UPDATED: [Form; 5] =
+    [Form::NonHourglass, Form::UpdatedNested, Form::ArtificialStress, Form::Laplacian, Form::Generalised];
 
 /// What a body is made of and how it is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -129,6 +147,20 @@ impl Setup {
         updated::Nested { stress: updated::Hypoelastic { plane: self.plane } }
     }
 
+    pub fn artificial_stress(&self, dimension: usize) -> updated::ArtificialStress {
+        let stress = updated::Hypoelastic { plane: self.plane };
+        updated::ArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
+    }
+
+    pub fn laplacian(&self) -> updated::Laplacian {
+        updated::Laplacian { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    /// For up to two bodies.
+    pub fn generalised(&self) -> updated::Generalised {
+        updated::Generalised::new(updated::Hypoelastic { plane: self.plane }, 2)
+    }
+
     /// A total Lagrangian body.
     pub fn total<const D: usize, F: Formulation<D>>(
         &self,
@@ -172,6 +204,11 @@ impl Setup {
             Form::UpdatedNested => {
                 Box::new(simulation::updated(points, (self.updated_nested(), &all), u, run))
             }
+            Form::ArtificialStress => {
+                Box::new(simulation::updated(points, (self.artificial_stress(D), &all), u, run))
+            }
+            Form::Generalised => Box::new(simulation::updated(points, (self.generalised(), &all), u, run)),
+            Form::Laplacian => Box::new(simulation::updated(points, (self.laplacian(), &all), u, run)),
         }
     }
 
