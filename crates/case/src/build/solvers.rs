@@ -100,6 +100,8 @@ where
                 Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
                 Formulation::UlLaplacian => UpdatedForm::Laplacian,
                 Formulation::UlGeneralised => UpdatedForm::Generalised,
+                Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+                _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
                 _ => UpdatedForm::NonHourglass,
             };
             let stress = Hypoelastic { plane: plane(case) };

@@ -26,6 +26,8 @@ pub enum Formulation {
     UlLaplacian,
     /// Updated Lagrangian, the nested form with an accumulated control of hourglass modes.
     UlGeneralised,
+    /// Updated Lagrangian, `UlNonHourglass` with a limited Riemann solver.
+    UlLowDissipation,
 }
 
 /// What the neighbours of a body refer to.
@@ -79,6 +81,11 @@ impl Words for Formulation {
             Self::UlLaplacian,
             "updated Lagrangian, shear forces by the plain Laplacian of velocity, which resists rotation; for comparison only; material linear-elastic",
         ),
+        (
+            "ul-low-dissipation",
+            Self::UlLowDissipation,
+            "updated Lagrangian, ul-non-hourglass with the limited Riemann solver that its paper names, which makes plates soft; for comparison only; material linear-elastic",
+        ),
     ];
 }
 
@@ -99,7 +106,8 @@ impl Formulation {
             | Self::UlNested
             | Self::UlArtificialStress
             | Self::UlLaplacian
-            | Self::UlGeneralised => Family::Updated,
+            | Self::UlGeneralised
+            | Self::UlLowDissipation => Family::Updated,
         }
     }
 }

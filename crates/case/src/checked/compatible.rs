@@ -22,6 +22,7 @@ fn models(formulation: Formulation) -> &'static [Model] {
         | Formulation::UlNested
         | Formulation::UlArtificialStress
         | Formulation::UlGeneralised
+        | Formulation::UlLowDissipation
         | Formulation::UlLaplacian => &[Model::LinearElastic],
     }
 }

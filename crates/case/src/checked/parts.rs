@@ -35,6 +35,7 @@ pub(super) struct Parts {
     pub loads: Vec<Load>,
     pub probes: Vec<Probe>,
     pub measures: Vec<Measure>,
+    pub shear_stress: bool,
 }
 
 impl Parts {
@@ -91,6 +92,7 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
         loads: forces,
         probes,
         measures,
+        shear_stress: schemes.shear_stress(),
     }
 }
 

@@ -78,6 +78,12 @@ pub(crate) mod case {
         Need::Default("paper"),
         "The factors of the force of `tl-hourglass-free`.",
     );
+    pub(crate) const SHEAR_STRESS: Key = Key::new(
+        "shear_stress",
+        Kind::Flag,
+        Need::Default("true"),
+        "Whether `ul-non-hourglass`, whose motion needs no shear stress, integrates one to be looked at. Without it files and pictures have the pressure alone, and the run is faster.",
+    );
     const PARAMETERS: Key = Key::new(
         "parameters",
         Kind::Parameters,
@@ -106,6 +112,7 @@ pub(crate) mod case {
             REFERENCE_SPEED,
             ALPHA,
             CALIBRATION,
+            SHEAR_STRESS,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),

@@ -126,6 +126,12 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
         }
         Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
+        Form::Updated(UpdatedForm::LowDissipation, _) => {
+            operations::<D>(&updated::LowDissipation::new(stress, D))
+        }
+        Form::Updated(UpdatedForm::UnwatchedNonHourglass, _) => {
+            operations::<D>(&updated::NonHourglass::new(updated::Unwatched, D))
+        }
         Form::Updated(UpdatedForm::Laplacian, _) => operations::<D>(&updated::Laplacian { stress }),
     }
 }

@@ -5,7 +5,8 @@ use super::particles::{Point, spacing, total, updated};
 use crate::formulation::Formulation;
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{
-    self as updated_forms, ArtificialStress, Generalised, Hypoelastic, Laplacian, NonHourglass,
+    self as updated_forms, ArtificialStress, Generalised, Hypoelastic, Laplacian, LowDissipation,
+    NonHourglass, Unwatched,
 };
 use crate::integrator::{TotalOptions, UpdatedOptions};
 use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff};
@@ -93,6 +94,10 @@ pub enum UpdatedForm {
     Laplacian,
     /// `ul-generalised`.
     Generalised,
+    /// `ul-low-dissipation`.
+    LowDissipation,
+    /// `ul-non-hourglass` without a shear stress to be looked at.
+    UnwatchedNonHourglass,
 }
 
 /// The numbers that pair sums are made of. What is integrated in time is in double precision always.
@@ -219,6 +224,14 @@ fn updated_of<const D: usize>(
     match form {
         UpdatedForm::NonHourglass => {
             let form = NonHourglass::new(stress, D);
+            body.waved(&|m| form.shear_speed(m, D)).with(form)
+        }
+        UpdatedForm::UnwatchedNonHourglass => {
+            let form = NonHourglass::new(Unwatched, D);
+            body.waved(&|m| form.shear_speed(m, D)).with(form)
+        }
+        UpdatedForm::LowDissipation => {
+            let form = LowDissipation::new(stress, D);
             body.waved(&|m| form.shear_speed(m, D)).with(form)
         }
         UpdatedForm::Laplacian => {

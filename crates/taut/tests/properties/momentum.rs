@@ -82,7 +82,8 @@ fn angular_momentum_is_exact_in_the_total_nested_forms() {
 /// The others exchange forces along lines that are not quite those between the particles. A hourglass-free body does at
 /// surfaces, where its spherical stress meets a moment matrix that is no multiple of 1; an updated body does between
 /// two lists (frozen directions), with the shear of its nested form at surfaces, and with the accumulated shear of the
-/// other, which is never rotated. Bounds: twice what was measured (relative to the sum of m |x| |v|; 0.0017, 0.027, 0.0037).
+/// other, which is never rotated. Bounds: twice what was measured (relative to the sum of m |x| |v|; 0.0017, 0.027, 0.0037,
+/// 0.0085 with artificial stress frozen between lists).
 #[test]
 fn angular_momentum_of_the_others_drifts_little() {
     let (plane, space) = stirred();
@@ -90,7 +91,7 @@ fn angular_momentum_of_the_others_drifts_little() {
         (Form::HourglassFree, 0.0035),
         (Form::NonHourglass, 0.055),
         (Form::UpdatedNested, 0.0075),
-        (Form::ArtificialStress, 0.0075),
+        (Form::ArtificialStress, 0.018),
         (Form::Generalised, 0.0075),
     ] {
         for stepping in [Stepping::Dual, Stepping::Single] {
@@ -127,6 +128,10 @@ fn colliding(form: Form) -> (Simulation, f64) {
             Box::new(updated(&points, (setup.artificial_stress(2), &moduli), options, Cpu::new))
         }
         Form::Generalised => Box::new(updated(&points, (setup.generalised(), &moduli), options, Cpu::new)),
+        Form::LowDissipation => {
+            Box::new(updated(&points, (setup.low_dissipation(2), &moduli), options, Cpu::new))
+        }
+        Form::Unwatched => Box::new(updated(&points, (setup.unwatched(2), &moduli), options, Cpu::new)),
         Form::Laplacian => Box::new(updated(&points, (setup.laplacian(), &moduli), options, Cpu::new)),
         _ => Box::new(updated(&points, (setup.non_hourglass(2), &moduli), options, Cpu::new)),
     };

@@ -60,6 +60,8 @@ where
         Form::ArtificialStress => updated(UpdatedForm::ArtificialStress),
         Form::Laplacian => updated(UpdatedForm::Laplacian),
         Form::Generalised => updated(UpdatedForm::Generalised),
+        Form::LowDissipation => updated(UpdatedForm::LowDissipation),
+        Form::Unwatched => updated(UpdatedForm::UnwatchedNonHourglass),
     }
 }
 

@@ -4,7 +4,7 @@ use super::integrated::{Integrate, RateSum, Shear, state};
 use super::kick::{ControlledKick, ControlledPush};
 use super::motion::Drift;
 use super::pressure::{Pushing, push};
-use super::{FIELDS, Hypoelastic, fields_and, same_body};
+use super::{FIELDS, Hypoelastic, joined, same_body};
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
@@ -86,7 +86,8 @@ impl<const D: usize> PairSum<D> for Momentum<'_> {
 }
 
 impl<const D: usize> Formulation<D> for ArtificialStress {
-    const FIELDS: &'static [Quantity] = &fields_and::<{ FIELDS.len() + 1 }>(&[Quantity::ArtificialStress]);
+    const FIELDS: &'static [Quantity] =
+        &joined::<{ FIELDS.len() + 1 }>(FIELDS, &[Quantity::ArtificialStress]);
 
     fn relisted(&self, _: &mut impl Run<D>) {}
 

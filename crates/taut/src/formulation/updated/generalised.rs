@@ -3,8 +3,8 @@
 use super::integrated::{RateSum, Rates, state};
 use super::kick::{Kick, Push};
 use super::motion::{Drift, MomentSum};
-use super::pressure::{Pushing, push};
-use super::{FIELDS, Hypoelastic, fields_and, same_body};
+use super::pressure::damp;
+use super::{FIELDS, Hypoelastic, joined, same_body};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
@@ -63,7 +63,7 @@ record! {
         f: DeformationGradient, s: ShearStress, axial: AxialShearStress, shear: ShearAcceleration, q: NominalStress,
     }
     /// What the force needs.
-    Pressed { v: Velocity, p: Pressure, z: Impedance, q: NominalStress, body: Body }
+    Pressed { x: Position, v: Velocity, p: Pressure, z: Impedance, q: NominalStress, body: Body }
     /// A particle before.
     Before {
         f: DeformationGradient, s: ShearStress, axial: AxialShearStress, shear: ShearAcceleration,
@@ -144,9 +144,9 @@ impl<const D: usize> PairSum<D> for Momentum {
         _: &Now<S>,
     ) {
         let inside = same_body(a.body, b.body);
-        let outside = S::one() - inside;
-        let pushing = |p: &Pressed<S, D>| Pushing { v: p.v, p: p.p * outside, z: p.z };
-        push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
+        let z = (a.z + b.z) * S::of(0.5);
+        damp((&mut sum.f, &mut sum.power), (a.v - b.v, a.x - b.x), (z, ab));
+        ab.gradient(&mut sum.f, (a.p + b.p) * (inside - S::one()));
         ab.dot(&mut sum.f, (a.q + b.q).times(inside));
     }
 }
@@ -262,11 +262,10 @@ impl<const D: usize> Update<D> for Settle {
 }
 
 impl<const D: usize> Formulation<D> for Generalised {
-    const FIELDS: &'static [Quantity] = &fields_and::<{ FIELDS.len() + 3 }>(&[
-        Quantity::DeformationGradient,
-        Quantity::DeformationRate,
-        Quantity::NominalStress,
-    ]);
+    const FIELDS: &'static [Quantity] = &joined::<{ FIELDS.len() + 3 }>(
+        FIELDS,
+        &[Quantity::DeformationGradient, Quantity::DeformationRate, Quantity::NominalStress],
+    );
 
     fn relisted(&self, run: &mut impl Run<D>) {
         let now = Now { t: 0.0, dt: 0.0 };

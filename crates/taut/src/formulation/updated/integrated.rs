@@ -1,9 +1,9 @@
 //! A shear stress that is integrated in time, shared by the forms that nest one gradient into another (UL section 3).
 
-use super::{Hypoelastic, same_body};
+use super::{Hypoelastic, same_body, shear_stress};
 use crate::field::{Of, Quantity};
 use crate::formulation::State;
-use crate::math::{Real, Tensor};
+use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
 use crate::run::Run;
 
@@ -89,9 +89,8 @@ impl<const D: usize> Update<D> for Integrate {
 /// The state, with the energy s:s / (4G) per volume, and what work of other shear forces has stored (`ShearWork`).
 pub fn state<const D: usize>(run: &impl Run<D>, place: usize) -> State {
     let word = |field, k| run.word(field, k, place);
-    let s: Tensor<f64, 3> = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j))
-        .lift(word(Quantity::AxialShearStress, 0));
+    let s = shear_stress(run, place);
     let volume = word(Quantity::Mass, 0) / word(Quantity::Density, 0);
     let elastic = volume * s.double_dot(s) / (4.0 * word(Quantity::ShearModulus, 0));
-    super::state(run, place, elastic + word(Quantity::ShearWork, 0))
+    super::state(run, place, (s, elastic + word(Quantity::ShearWork, 0)))
 }

@@ -1,33 +1,30 @@
 //! The essentially non-hourglass formulation, `ul-non-hourglass` (UL section 4).
 
-use super::accumulated::{HalfLaplacian, Integrate, Momentum, RateSum};
+use super::accumulated::{HalfLaplacian, Momentum, Watch};
 use super::kick::Kick;
-use super::motion::{Drift, MomentSum};
-use super::{FIELDS, Hypoelastic};
-use crate::correction::Invert;
+use super::motion::Drift;
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::material::Moduli;
 use crate::math::{Real, Vector};
 use crate::pass::{Now, Pair};
 use crate::run::Run;
-use std::marker::PhantomData;
 
 /// dv/dt = pressure + A with dA/dt = 2 zeta (G/rho) sum_b (e.v_ab / r) grad W V_b inside the body (UL Eqs. 19, 20): the shear
 /// acceleration is integrated itself, not derived from an integrated stress. A is never rotated and never reset, so
 /// a stressed body that spins as a whole is outside of what this form can do.
 #[derive(Clone, Copy, Debug)]
-pub struct NonHourglass {
-    /// Shear stress for output; it does not act back.
-    pub stress: Hypoelastic,
+pub struct NonHourglass<W> {
+    /// Shear stress for output, or nobody who looks at it; it does not act back.
+    pub stress: W,
     /// The factor of Eq. (19).
     pub zeta: f64,
 }
 
-impl NonHourglass {
+impl<W> NonHourglass<W> {
     /// With the paper's zeta = 0.7 d + 2.1.
     #[must_use]
-    pub fn new(stress: Hypoelastic, dimension: usize) -> Self {
+    pub fn new(stress: W, dimension: usize) -> Self {
         Self { stress, zeta: 0.7 * dimension as f64 + 2.1 }
     }
 
@@ -54,11 +51,11 @@ impl HalfLaplacian for AlongPairs {
     }
 }
 
-impl<const D: usize> Formulation<D> for NonHourglass {
-    const FIELDS: &'static [Quantity] = FIELDS;
+impl<W: Watch, const D: usize> Formulation<D> for NonHourglass<W> {
+    const FIELDS: &'static [Quantity] = W::FIELDS;
 
     fn relisted(&self, run: &mut impl Run<D>) {
-        run.pairs(&MomentSum, &Invert, Now { t: 0.0, dt: 0.0 });
+        self.stress.relisted(run);
     }
 
     fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
@@ -67,11 +64,10 @@ impl<const D: usize> Formulation<D> for NonHourglass {
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        let integrate = Integrate { stress: self.stress, factor: 2.0 * self.zeta };
-        run.pairs(&RateSum::<AlongPairs>(PhantomData), &integrate, now);
+        self.stress.rates::<AlongPairs, D>(2.0 * self.zeta, run, now);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {
-        super::state(run, place, run.word(Quantity::ShearWork, 0, place))
+        super::state(run, place, (W::seen(run, place), run.word(Quantity::ShearWork, 0, place)))
     }
 }

@@ -46,10 +46,14 @@ pub enum Form {
     Laplacian,
     /// `ul-generalised`.
     Generalised,
+    /// `ul-low-dissipation`.
+    LowDissipation,
+    /// `ul-non-hourglass` without a shear stress.
+    Unwatched,
 }
 
 /// All of them.
-pub const FORMS: [Form; 8] = [
+pub const FORMS: [Form; 10] = [
     Form::HourglassFree,
     Form::TotalNested,
     Form::Ganzenmueller,
@@ -58,11 +62,20 @@ pub const FORMS: [Form; 8] = [
     Form::ArtificialStress,
     Form::Laplacian,
     Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
 ];
 
 /// The updated Lagrangian ones.
-pub const UPDATED: [Form; 5] =
-    [Form::NonHourglass, Form::UpdatedNested, Form::ArtificialStress, Form::Laplacian, Form::Generalised];
+pub const UPDATED: [Form; 7] = [
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
 
 /// What a body is made of and how it is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -139,7 +152,7 @@ impl Setup {
         total::Ganzenmueller::new(self.material(), self.total_kernel(dimension), 10.0)
     }
 
-    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass {
+    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass<updated::Hypoelastic> {
         updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
     }
 
@@ -152,7 +165,15 @@ impl Setup {
         updated::ArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
     }
 
-    pub fn laplacian(&self) -> updated::Laplacian {
+    pub fn unwatched(&self, dimension: usize) -> updated::NonHourglass<updated::Unwatched> {
+        updated::NonHourglass::new(updated::Unwatched, dimension)
+    }
+
+    pub fn low_dissipation(&self, dimension: usize) -> updated::LowDissipation {
+        updated::LowDissipation::new(updated::Hypoelastic { plane: self.plane }, dimension)
+    }
+
+    pub fn laplacian(&self) -> updated::Laplacian<updated::Hypoelastic> {
         updated::Laplacian { stress: updated::Hypoelastic { plane: self.plane } }
     }
 
@@ -208,6 +229,10 @@ impl Setup {
                 Box::new(simulation::updated(points, (self.artificial_stress(D), &all), u, run))
             }
             Form::Generalised => Box::new(simulation::updated(points, (self.generalised(), &all), u, run)),
+            Form::LowDissipation => {
+                Box::new(simulation::updated(points, (self.low_dissipation(D), &all), u, run))
+            }
+            Form::Unwatched => Box::new(simulation::updated(points, (self.unwatched(D), &all), u, run)),
             Form::Laplacian => Box::new(simulation::updated(points, (self.laplacian(), &all), u, run)),
         }
     }
