@@ -91,6 +91,7 @@ where
                     Stepping::Dual => integrator::Stepping::Dual,
                     Stepping::Single => integrator::Stepping::Single,
                 },
+                ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,

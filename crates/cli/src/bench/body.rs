@@ -58,6 +58,7 @@ where
                 cfl: 0.4,
                 advection_cfl: 0.2,
                 stepping,
+                ahead: 0.0,
                 // As a body that moves with a twentieth of the speed of sound: what the papers' plates do.
                 reference_speed: 0.05 * bulk_speed,
                 bulk_speed,

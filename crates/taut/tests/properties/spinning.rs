@@ -26,8 +26,8 @@ fn plate(setup: &Setup) -> (Vec<Point<2>>, f64) {
 }
 
 /// What is seen of each turn: mean over it of the root mean square of the von Mises stress, and of the pressure, in units of rho0 (omega R)^2;
-/// and spin (moment of momentum) over the first.
-fn turns<F: Formulation<2> + Copy>(form: F, stepping: Stepping) -> Vec<[f64; 3]> {
+/// and spin (moment of momentum) over the first. `None` if it comes to pieces.
+fn turns<F: Formulation<2> + Copy>(form: F, stepping: Stepping) -> Option<Vec<[f64; 3]>> {
     let setup = Setup { stepping, ..Setup::new(DP) };
     let (points, omega) = plate(&setup);
     let unit = setup.moduli.density * (0.05 * setup.moduli.sound_speed()).powi(2);
@@ -44,7 +44,9 @@ fn turns<F: Formulation<2> + Copy>(form: F, stepping: Stepping) -> Vec<[f64; 3]>
     for turn in 1..=TURNS {
         let (mut sum, mut pressure, mut looks) = (0.0, 0.0, 0.0);
         while clock.time * omega < TAU * turn as f64 {
-            clock.steps(&mut body, 4);
+            for _ in 0..4 {
+                clock.step(&mut body).ok()?;
+            }
             let cauchy = |i| body.state(i).cauchy;
             let n = body.len() as f64;
             sum += ((0..body.len()).map(|i| cauchy(i).von_mises().powi(2)).sum::<f64>() / n).sqrt();
@@ -53,18 +55,26 @@ fn turns<F: Formulation<2> + Copy>(form: F, stepping: Stepping) -> Vec<[f64; 3]>
         }
         seen.push([sum / looks / unit, pressure / looks / unit, spin(&body) / first]);
     }
-    seen
+    Some(seen)
 }
 
-/// Ten turns leave what the first left but for the breathing that the sudden start set off, which dies away.
+/// From the third turn, when the breathing that the sudden start set off has died away, to the tenth: stress, pressure and spin stay.
 #[test]
-fn generalised_plate_spins_without_drift() {
+fn a_plate_in_the_generalised_form_spins_without_drift() {
     for stepping in [Stepping::Dual, Stepping::Single] {
-        let seen = turns(Setup::new(DP).generalised(), stepping);
-        eprintln!("generalised {stepping:?} {seen:?}");
-        let seen = turns(Setup::new(DP).non_hourglass(2), stepping);
-        eprintln!("non-hourglass {stepping:?} {seen:?}");
-        let seen = turns(Setup::new(DP).updated_nested(), stepping);
-        eprintln!("nested {stepping:?} {seen:?}");
+        let seen = turns(Setup::new(DP).generalised(), stepping).expect("it goes on");
+        let (early, late) = (seen[2], seen[TURNS - 1]);
+        assert!(early[0] > 0.05 && early[1] < -0.1, "there is a stress to drift: {seen:?}");
+        for k in 0..3 {
+            assert!((late[k] / early[k] - 1.0).abs() < 0.01, "{stepping:?} {k}: {seen:?}");
+        }
     }
+}
+
+/// The non-hourglass form does not turn what it has accumulated: it comes to pieces, or to something else.
+#[test]
+fn a_plate_in_the_non_hourglass_form_does_not() {
+    let seen = turns(Setup::new(DP).non_hourglass(2), Stepping::Dual);
+    let drifted = |seen: &Vec<[f64; 3]>| (seen[TURNS - 1][0] / seen[2][0] - 1.0).abs() > 0.1;
+    assert!(seen.as_ref().is_none_or(drifted), "{seen:?}");
 }

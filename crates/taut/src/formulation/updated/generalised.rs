@@ -141,11 +141,12 @@ impl<const D: usize> PairSum<D> for Momentum {
         sum: &mut Push<S, D>,
         (a, b): (&Pressed<S, D>, &Pressed<S, D>),
         ab: &Pair<S, D, M>,
-        _: &Now<S>,
+        now: &Now<S>,
     ) {
         let inside = same_body(a.body, b.body);
         let z = (a.z + b.z) * S::of(0.5);
-        damp((&mut sum.f, &mut sum.power), (a.v - b.v, a.x - b.x), (z, ab));
+        let half = now.dt * S::of(0.5);
+        damp((&mut sum.f, &mut sum.power), (a.v - b.v, a.x - b.x, half), (z, ab));
         ab.gradient(&mut sum.f, (a.p + b.p) * (inside - S::one()));
         ab.dot(&mut sum.f, (a.q + b.q).times(inside));
     }

@@ -134,6 +134,7 @@ impl Setup {
             cfl: self.cfl / 1.5,
             advection_cfl: 0.2,
             stepping: self.stepping,
+            ahead: 0.0,
             reference_speed: 0.05 * c0,
             bulk_speed: c0,
             shear_speed: (longitudinal / m.density).sqrt(),
