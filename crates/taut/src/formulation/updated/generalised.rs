@@ -127,7 +127,8 @@ impl<const D: usize> Update<D> for Carry<'_> {
     }
 }
 
-/// The force sum: (Q_a + Q_b) . grad W V_b inside a body, pressure between bodies, dissipation everywhere.
+/// The force sum: (Q_a + Q_b) . grad W V_b inside a body, pressure between bodies, dissipation everywhere. Bodies push and do not pull: two rings
+/// that part would hold on to each other with the tension of their surfaces.
 struct Momentum;
 
 impl<const D: usize> PairSum<D> for Momentum {
@@ -147,7 +148,7 @@ impl<const D: usize> PairSum<D> for Momentum {
         let z = (a.z + b.z) * S::of(0.5);
         let half = now.dt * S::of(0.5);
         damp((&mut sum.f, &mut sum.power), (a.v - b.v, a.x - b.x, half), (z, ab));
-        ab.gradient(&mut sum.f, (a.p + b.p) * (inside - S::one()));
+        ab.gradient(&mut sum.f, (a.p + b.p).max(S::zero()) * (inside - S::one()));
         ab.dot(&mut sum.f, (a.q + b.q).times(inside));
     }
 }
