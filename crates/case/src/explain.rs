@@ -244,6 +244,14 @@ fn times(case: &Case) -> Vec<String> {
         March::Updated { stepping, .. } => Some(stepping),
         March::Total { .. } => None,
     });
+    let damper = case.bodies.iter().find_map(|body| match body.scheme.march {
+        March::Total { kelvin_voigt, .. } if kelvin_voigt != 1.0 => Some(kelvin_voigt),
+        _ => None,
+    });
+    lines.extend(damper.map(|factor| match factor {
+        0.0 => "no Kelvin-Voigt damping".into(),
+        _ => format!("{factor} times the Kelvin-Voigt damping of the paper"),
+    }));
     match updated {
         Some(Stepping::Dual) => {
             lines.push("neighbours are renewed once in several steps (dual stepping)".into());

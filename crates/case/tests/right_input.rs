@@ -7,7 +7,7 @@ use samples::{COLUMN, PLATE, PUNCH, RINGS, parse, parse_set};
 
 /// Total Lagrangian with this step and the defaults of the rest.
 fn marched(step: StepRule) -> March {
-    March::Total { step, calibration: Calibration::Paper, alpha: 10.0 }
+    March::Total { step, calibration: Calibration::Paper, alpha: 10.0, kelvin_voigt: 1.0 }
 }
 
 #[test]
@@ -164,6 +164,10 @@ fn doubtful_cases_are_warned_about() {
     ));
     let told = tuned.expect("right").render_warnings(false);
     assert!(told.contains("a number to be tuned") && told.contains("alpha = 25"), "{told}");
+    let undamped =
+        parse(&PLATE.replacen("dimension = 2", "dimension = 2\nkelvin_voigt = 0", 1)).expect("right");
+    assert!(undamped.render_warnings(false).contains("will not stay stable"));
+    assert!(taut_case::explain(&undamped).contains("no Kelvin-Voigt damping"));
     let text = RINGS.replace("plane = \"papers\"\n", "").replace("nu = 0.4", "nu = 0.3");
     let case = parse(&text).expect("right");
     assert_eq!(case.warnings.len(), 2);

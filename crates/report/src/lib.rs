@@ -7,6 +7,7 @@
 mod animation;
 mod audit;
 mod colours;
+mod corner;
 mod error;
 mod field;
 mod image;

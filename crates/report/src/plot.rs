@@ -9,6 +9,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::ReportError;
+use crate::corner;
 use crate::scale::Scale;
 
 const SIZE: (u32, u32) = (960, 540);
@@ -78,7 +79,7 @@ fn curves<'a>(
     let own = Curve { label, colour, dashed: false, parts: parts(&table.times, &column.values) };
     let end = table.times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let others = reference.into_iter().flat_map(move |reference| {
-        reference.curves(&column.name).map(move |curve| {
+        reference.curves(&column.name).enumerate().map(move |(n, curve)| {
             let seen = reference
                 .table
                 .times
@@ -88,7 +89,11 @@ fn curves<'a>(
             let values = &curve.values[..seen.min(curve.values.len())];
             Curve {
                 label: format!("{}, reference", curve.name),
-                colour: RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                // The first belongs to its column by its colour, the others have their own.
+                colour: match n {
+                    0 => RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                    n => LINES[(index + table.columns.len() + n - 1) % LINES.len()],
+                },
                 dashed: true,
                 parts: parts(&reference.table.times[..values.len()], values),
             }
@@ -150,7 +155,7 @@ fn chart(
     if curves.len() > 1 {
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(corner::emptiest(all().map(|&(x, y)| (time.part(x), value.part(y)))))
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 16))
@@ -242,6 +247,11 @@ impl Axis {
     /// `value` in the unit of the axis.
     fn shown(&self, value: f64) -> f64 {
         value / self.scale.divisor
+    }
+
+    /// Where `value` lies between the ends of the axis, 0 to 1.
+    fn part(&self, value: f64) -> f64 {
+        (self.shown(value) - self.range.start) / (self.range.end - self.range.start)
     }
 
     /// The number at a tick, `shown` being in the unit of the axis.

@@ -10,7 +10,8 @@ use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
 use taut::simulation::{
-    self, InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+    self, InSpace, Law, Numbers, Point, Solver, TotalForm, TotalModel, UpdatedForm, total_body,
+    updated_bodies,
 };
 
 /// The plane as the material sees it.
@@ -63,7 +64,7 @@ where
     let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
     let points = Point::points(&group.points);
     match scheme.march {
-        March::Total { step, calibration, alpha } => {
+        March::Total { step, calibration, alpha, kelvin_voigt } => {
             let options = TotalOptions {
                 kernel,
                 cfl: scheme.cfl,
@@ -72,7 +73,8 @@ where
             };
             let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
-            total_body(points, (form, law), options, numbers).ok_or_else(|| {
+            let model = TotalModel { form, law, kelvin_voigt };
+            total_body(points, model, options, numbers).ok_or_else(|| {
                 let message = format!(
                     "the material `{}` does not go with {}",
                     body.material,

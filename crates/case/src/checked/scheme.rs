@@ -33,6 +33,8 @@ pub enum March {
         calibration: Calibration,
         /// Strength of Ganzenmueller's hourglass control.
         alpha: f64,
+        /// Factor of the Kelvin-Voigt damping.
+        kelvin_voigt: f64,
     },
     /// Updated Lagrangian.
     Updated {
@@ -57,6 +59,7 @@ pub(crate) struct Schemes {
     reference_speed: Option<(f64, Place)>,
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
+    kelvin_voigt: Option<(f64, Place)>,
 }
 
 impl Schemes {
@@ -88,6 +91,9 @@ impl Schemes {
                 choice(n, case::CALIBRATION.name, Calibration::WORDS)
             }),
             alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
+            kelvin_voigt: optional(root.get(case::KELVIN_VOIGT.name), problems, |n| {
+                scope.of(n, &case::KELVIN_VOIGT)
+            }),
         }
     }
 
@@ -99,6 +105,7 @@ impl Schemes {
                 step: self.step.map_or(defaults::STEP, |(step, _)| step),
                 calibration: self.calibration.map_or(defaults::CALIBRATION, |(calibration, _)| calibration),
                 alpha: self.alpha.map_or(defaults::ALPHA, |(alpha, _)| alpha),
+                kelvin_voigt: self.kelvin_voigt.map_or(defaults::KELVIN_VOIGT, |(factor, _)| factor),
             },
             Family::Updated => March::Updated {
                 stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
@@ -135,8 +142,14 @@ impl Schemes {
                 problems.0.push(useless(key, "updated Lagrangian formulations (ul-*)", place));
             }
         }
-        if let Some((_, place)) = self.step.filter(|_| !used(Family::Total)) {
-            problems.0.push(useless("step", "total Lagrangian formulations (tl-*)", place));
+        let total_only = [
+            ("step", self.step.map(|(_, place)| place)),
+            ("kelvin_voigt", self.kelvin_voigt.map(|(_, place)| place)),
+        ];
+        for (key, place) in total_only {
+            if let Some(place) = place.filter(|_| !used(Family::Total)) {
+                problems.0.push(useless(key, "total Lagrangian formulations (tl-*)", place));
+            }
         }
     }
 }

@@ -72,6 +72,12 @@ pub(crate) mod case {
         Need::Default("10"),
         "Strength of the hourglass control of `tl-ganzenmueller`: a number to be tuned. Too little lets zigzag grow, too much makes bodies too stiff.",
     );
+    pub(crate) const KELVIN_VOIGT: Key = Key::new(
+        "kelvin_voigt",
+        Kind::Number(Dimension::NUMBER, Range::NotNegative),
+        Need::Default("1"),
+        "Factor of the Kelvin-Voigt damping of total Lagrangian bodies, rho0 c h / 2 (TL Eq. 23); 1 as in the paper, 0 for none. `tl-hourglass-free` is not stable without it.",
+    );
     pub(crate) const CALIBRATION: Key = Key::new(
         "calibration",
         Kind::Choice(Calibration::choices),
@@ -105,6 +111,7 @@ pub(crate) mod case {
             SMOOTHING,
             REFERENCE_SPEED,
             ALPHA,
+            KELVIN_VOIGT,
             CALIBRATION,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
@@ -251,7 +258,7 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output; disorder 600 steps apart"),
+        Need::Default("as [time] output; disorder 1000 steps apart"),
         "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {

@@ -68,6 +68,17 @@ pub enum TotalForm {
     Ganzenmueller(f64),
 }
 
+/// What a total Lagrangian body is made of, and how it is solved.
+#[derive(Clone, Copy, Debug)]
+pub struct TotalModel {
+    /// The formulation.
+    pub form: TotalForm,
+    /// The material.
+    pub law: Law,
+    /// Factor of the Kelvin-Voigt damping of TL Eq. (23); 1 in the paper, 0 for none.
+    pub kelvin_voigt: f64,
+}
+
 /// The factors of the hourglass-free force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Calibration {
@@ -112,11 +123,12 @@ impl Numbers {
 #[must_use]
 pub fn total_body(
     points: Points<'_>,
-    (form, law): (TotalForm, Law),
+    model: TotalModel,
     options: TotalOptions,
     numbers: Numbers,
 ) -> Option<Box<dyn Solver>> {
-    let body = TotalBody { points, moduli: law.moduli(), options, numbers };
+    let TotalModel { form, law, kelvin_voigt } = model;
+    let body = TotalBody { points, moduli: law.moduli(), kelvin_voigt, options, numbers };
     match law {
         Law::NeoHookean(m) => body.free(form, m).or_else(|| body.nested(form, m)),
         Law::NeoHookeanLog(m) => body.free(form, m).or_else(|| body.nested(form, m)),
@@ -134,6 +146,7 @@ fn among<M: Hyperelastic, const D: usize>(form: Ganzenmueller<M>, points: &[Poin
 struct TotalBody<'a> {
     points: Points<'a>,
     moduli: Moduli,
+    kelvin_voigt: f64,
     options: TotalOptions,
     numbers: Numbers,
 }
@@ -143,13 +156,14 @@ impl TotalBody<'_> {
     fn free<M: PairShear>(&self, form: TotalForm, material: M) -> Option<Box<dyn Solver>> {
         let TotalForm::HourglassFree(calibration) = form else { return None };
         let kernel = &self.options.kernel;
-        Some(self.with(match calibration {
+        let free = match calibration {
             Calibration::Paper => HourglassFree::new(material, kernel.h()),
             Calibration::Lattice => match self.points {
                 Points::Two(p) => HourglassFree::calibrated::<2>(material, kernel, spacing(p)),
                 Points::Three(p) => HourglassFree::calibrated::<3>(material, kernel, spacing(p)),
             },
-        }))
+        };
+        Some(self.with(HourglassFree { solid: free.solid.damped(self.kelvin_voigt), ..free }))
     }
 
     /// In one of the nested forms, if one is wanted.
@@ -157,9 +171,14 @@ impl TotalBody<'_> {
         let kernel = self.options.kernel;
         match form {
             TotalForm::HourglassFree(_) => None,
-            TotalForm::Nested => Some(self.with(Nested::new(material, kernel.h()))),
+            TotalForm::Nested => {
+                let nested = Nested::new(material, kernel.h());
+                Some(self.with(Nested { solid: nested.solid.damped(self.kelvin_voigt) }))
+            }
             TotalForm::Ganzenmueller(alpha) => {
                 let controlled = Ganzenmueller::new(material, kernel, alpha);
+                let solid = controlled.solid.damped(self.kelvin_voigt);
+                let controlled = Ganzenmueller { solid, ..controlled };
                 Some(self.with(match self.points {
                     Points::Two(points) => among(controlled, points),
                     Points::Three(points) => among(controlled, points),

@@ -15,7 +15,8 @@ mod snapshot;
 pub use audit::{Audit, Grip};
 #[cfg(not(test))]
 pub use body::{
-    Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
+    Calibration, InSpace, Law, Numbers, Points, TotalForm, TotalModel, UpdatedForm, total_body,
+    updated_bodies,
 };
 pub use damping::{Damping, Kinetic, Splitting};
 pub use guard::{COLLAPSE, GAIN, Guard};
@@ -205,6 +206,7 @@ impl Simulation {
         };
         if let Some(contact) = &mut self.contact {
             contact.apply(&mut self.solvers, now)?;
+            self.audit.pressed(contact, now.dt);
         }
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {
