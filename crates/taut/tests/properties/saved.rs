@@ -9,8 +9,8 @@ use taut::formulation::updated::Hypoelastic;
 use taut::particles::saved::{Part, RestoreError, Shelf, Values};
 use taut::pass::Now;
 use taut::simulation::{
-    Calibration, Drive, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, UpdatedForm, total_body,
-    updated_bodies,
+    Calibration, Drive, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, TotalModel, UpdatedForm,
+    total_body, updated_bodies,
 };
 
 const DP: f64 = 0.002;
@@ -45,7 +45,13 @@ where
     let stress = Hypoelastic { plane: setup.plane };
     let total = |form| {
         let law = Law::NeoHookean(setup.material());
-        total_body(Point::points(points), (form, law), setup.total_options(D), numbers).expect("they fit")
+        total_body(
+            Point::points(points),
+            TotalModel { form, law, kelvin_voigt: 1.0 },
+            setup.total_options(D),
+            numbers,
+        )
+        .expect("they fit")
     };
     let updated = |form| {
         let moduli = |_: u32| setup.moduli;
