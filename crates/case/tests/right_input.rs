@@ -167,7 +167,7 @@ fn doubtful_cases_are_warned_about() {
     let undamped =
         parse(&PLATE.replacen("dimension = 2", "dimension = 2\nkelvin_voigt = 0", 1)).expect("right");
     assert!(undamped.render_warnings(false).contains("will not stay stable"));
-    assert!(case::explain(&undamped).contains("no Kelvin-Voigt damping"));
+    assert!(explain(&undamped).contains("no Kelvin-Voigt damping"));
     let text = RINGS.replace("plane = \"papers\"\n", "").replace("nu = 0.4", "nu = 0.3");
     let case = parse(&text).expect("right");
     assert_eq!(case.warnings.len(), 2);
