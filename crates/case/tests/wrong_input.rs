@@ -70,7 +70,7 @@ const ROWS: &[Row] = &[
         "ul-non-hourglas",
         &["unknown formulation", "did you mean `ul-non-hourglass`?"],
     ),
-    (RINGS, "ul-non-hourglass", "ul-generalised", &["`ul-generalised` is planned, but not in this version"]),
+    (RINGS, "ul-non-hourglass", "small-strain", &["`small-strain` is planned, but not in this version"]),
     (RINGS, "\"dual\"", "\"duel\"", &["unknown stepping `duel`", "did you mean `dual`?"]),
     (
         PLATE,

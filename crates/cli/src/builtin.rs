@@ -21,7 +21,11 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-flag", include_str!("../../../cases/tl-flag.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
+    ("ul-plate-3d", include_str!("../../../cases/ul-plate-3d.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
+    ("ul-hollow-balls", include_str!("../../../cases/ul-hollow-balls.toml")),
+    ("ul-ball-plate-2d", include_str!("../../../cases/ul-ball-plate-2d.toml")),
+    ("ul-ball-plate-3d", include_str!("../../../cases/ul-ball-plate-3d.toml")),
 ];
 
 /// Reference curves of the built-in cases, by their paths.
@@ -41,17 +45,7 @@ const CURVES: &[(&str, &str)] = &[
 ];
 
 /// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] = &[
-    "tl-stent",
-    "ul-plate-3d",
-    "ul-hollow-balls",
-    "ul-ball-plate-2d",
-    "ul-ball-plate-3d",
-    "lk-rectangle",
-    "lk-annulus",
-    "lk-stability",
-    "lk-collision",
-];
+const LATER: &[&str] = &["tl-stent", "lk-rectangle", "lk-annulus", "lk-stability", "lk-collision"];
 
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {

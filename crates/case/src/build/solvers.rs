@@ -93,12 +93,18 @@ where
                     Stepping::Dual => integrator::Stepping::Dual,
                     Stepping::Single => integrator::Stepping::Single,
                 },
+                ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
             let form = match scheme.formulation {
                 Formulation::UlNested => UpdatedForm::Nested,
+                Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+                Formulation::UlLaplacian => UpdatedForm::Laplacian,
+                Formulation::UlGeneralised => UpdatedForm::Generalised,
+                Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+                _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
                 _ => UpdatedForm::NonHourglass,
             };
             let stress = Hypoelastic { plane: plane(case) };

@@ -39,6 +39,8 @@ pub struct Case {
     pub spacing: f64,
     /// The kernel.
     pub kernel: Kernel,
+    /// Whether a shear stress is integrated where motion does not need one.
+    pub shear_stress: bool,
     /// Names and SI values of `[parameters]`, in the order of the file.
     pub parameters: Vec<(String, f64)>,
     /// Materials, in the order of the file.

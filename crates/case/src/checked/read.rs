@@ -67,6 +67,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         formulation: parts.formulation,
         spacing: spacing?,
         kernel,
+        shear_stress: parts.shear_stress,
         parameters: scope.parameters,
         warnings: parts.warnings(root, plane),
         materials: parts.materials,

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::choices::{Calibration, Family, Formulation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
+use super::time::flag;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
 use crate::keys::{Words, case, time};
 use crate::source::Place;
@@ -60,6 +61,7 @@ pub(crate) struct Schemes {
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
     kelvin_voigt: Option<(f64, Place)>,
+    shear_stress: Option<(bool, Place)>,
 }
 
 impl Schemes {
@@ -94,7 +96,15 @@ impl Schemes {
             kelvin_voigt: optional(root.get(case::KELVIN_VOIGT.name), problems, |n| {
                 scope.of(n, &case::KELVIN_VOIGT)
             }),
+            shear_stress: optional(root.get(case::SHEAR_STRESS.name), problems, |n| {
+                flag(n, &case::SHEAR_STRESS)
+            }),
         }
+    }
+
+    /// Whether a shear stress is integrated that is only to be looked at.
+    pub(crate) fn shear_stress(&self) -> bool {
+        self.shear_stress.is_none_or(|(wanted, _)| wanted)
     }
 
     /// The scheme of a body with its own formulation (or none).
@@ -124,6 +134,7 @@ impl Schemes {
     pub(crate) fn refuse_useless(&self, bodies: &[Body], problems: &mut Problems) {
         let used = |family| bodies.iter().any(|body| body.scheme.formulation.family() == family);
         let one_only = [
+            ("shear_stress", self.shear_stress.map(|(_, place)| place), Formulation::UlNonHourglass),
             ("alpha", self.alpha.map(|(_, place)| place), Formulation::TlGanzenmueller),
             ("calibration", self.calibration.map(|(_, place)| place), Formulation::TlHourglassFree),
         ];

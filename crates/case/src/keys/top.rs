@@ -39,7 +39,7 @@ pub(crate) mod case {
     pub(crate) const STEPPING: Key = Key::new(
         "stepping",
         Kind::Choice(Stepping::choices),
-        Need::Default("dual; single for ul-nested"),
+        Need::Default("dual; single for ul-nested and ul-artificial-stress"),
         "How updated Lagrangian bodies renew their neighbours; total Lagrangian ones never do.",
     );
     pub(crate) const SPACING: Key = Key::new(
@@ -84,6 +84,12 @@ pub(crate) mod case {
         Need::Default("paper"),
         "The factors of the force of `tl-hourglass-free`.",
     );
+    pub(crate) const SHEAR_STRESS: Key = Key::new(
+        "shear_stress",
+        Kind::Flag,
+        Need::Default("true"),
+        "Whether `ul-non-hourglass`, whose motion needs no shear stress, integrates one to be looked at. Without it files and pictures have the pressure alone, and the run is faster.",
+    );
     const PARAMETERS: Key = Key::new(
         "parameters",
         Kind::Parameters,
@@ -113,6 +119,7 @@ pub(crate) mod case {
             ALPHA,
             KELVIN_VOIGT,
             CALIBRATION,
+            SHEAR_STRESS,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),

@@ -1,5 +1,6 @@
 //! Snapshots as frames for files and pictures.
 
+use crate::Case;
 use output::{Array, Frame, Values};
 use std::sync::Arc;
 use taut::field::Quantity;
@@ -9,6 +10,8 @@ use taut::simulation::Snapshot;
 #[derive(Debug)]
 pub struct Framer {
     spacing: f64,
+    /// Whether there is a shear stress to be seen.
+    sheared: bool,
     lasting: Lasting,
 }
 
@@ -21,9 +24,9 @@ struct Lasting {
 }
 
 impl Framer {
-    /// For particles of this spacing, m.
-    pub fn new(spacing: f64) -> Self {
-        Self { spacing, lasting: Lasting::default() }
+    /// Of the runs of a case.
+    pub fn new(case: &Case) -> Self {
+        Self { spacing: case.spacing, sheared: case.shear_stress, lasting: Lasting::default() }
     }
 
     /// Makes a frame; `deformation` holds the deformation gradients, row by row.
@@ -41,7 +44,7 @@ impl Framer {
         let whole =
             |name: &str, values: &Arc<Vec<i32>>| Array::scalar(name, "1", Values::Whole(Arc::clone(values)));
         let spacing = Values::Shared(Arc::clone(&self.lasting.spacing));
-        let arrays = vec![
+        let mut arrays = vec![
             several("Displacement", "m", &snapshot.displacement),
             several("Velocity", "m/s", &snapshot.velocity),
             of(Quantity::Density, Values::F32(single(&snapshot.density))),
@@ -53,6 +56,10 @@ impl Framer {
             whole("ParticleId", &self.lasting.id),
             whole("Body", &self.lasting.body),
         ];
+        if !self.sheared {
+            let names = [Quantity::VonMisesStress.name(), Quantity::CauchyStress.name()];
+            arrays.retain(|array| !names.contains(&array.name.as_str()));
+        }
         Frame { time: snapshot.time, step, points: snapshot.positions().collect(), arrays }
     }
 }

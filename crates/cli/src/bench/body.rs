@@ -61,6 +61,7 @@ where
                 cfl: 0.4,
                 advection_cfl: 0.2,
                 stepping,
+                ahead: 0.0,
                 // As a body that moves with a twentieth of the speed of sound: what the papers' plates do.
                 reference_speed: 0.05 * bulk_speed,
                 bulk_speed,
@@ -124,5 +125,17 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::NonHourglass::new(stress, D))
         }
         Form::Updated(UpdatedForm::Nested, _) => operations::<D>(&updated::Nested { stress }),
+        Form::Updated(UpdatedForm::ArtificialStress, _) => {
+            let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
+            operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
+        }
+        Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
+        Form::Updated(UpdatedForm::LowDissipation, _) => {
+            operations::<D>(&updated::LowDissipation::new(stress, D))
+        }
+        Form::Updated(UpdatedForm::UnwatchedNonHourglass, _) => {
+            operations::<D>(&updated::NonHourglass::new(updated::Unwatched, D))
+        }
+        Form::Updated(UpdatedForm::Laplacian, _) => operations::<D>(&updated::Laplacian { stress }),
     }
 }

@@ -83,6 +83,17 @@ fn hourglass_free_plate_gains_no_energy() {
     assert!(low > 0.88 && high < 1.02, "{low} {high}");
 }
 
+/// What artificial stress does is counted by its work, so that the rest closes as without it.
+#[test]
+fn plate_with_artificial_stress_closes() {
+    let (setup, points) = set_up();
+    let setup = Setup { stepping: taut::integrator::Stepping::Single, ..setup };
+    let body = setup.updated(setup.artificial_stress(2), &points);
+    let (low, high, end) = bounds(Box::new(body), ledger);
+    assert!(low > 1.0 - 2e-3 && high < 1.0 + 2e-3, "{low} {high}");
+    assert!(end.strain > 0.0 && end.dissipated > 0.0, "{end:?}");
+}
+
 /// Kinetic, pressure, work of the shear forces, dissipation, each counted by itself. Volumes are frozen between lists while
 /// densities go on, which loses what strain there is (0.01) of what the pressure stores (0.02).
 #[test]

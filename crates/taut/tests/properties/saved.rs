@@ -2,7 +2,7 @@
 //! and off it, in both precisions, on another number of threads.
 
 use crate::common::points::{block, disordered, stir};
-use crate::common::{FORMS, Form, Setup};
+use crate::common::{FORMS, Form, Setup, UPDATED};
 use std::collections::BTreeMap;
 use taut::field::Quantity;
 use taut::formulation::updated::Hypoelastic;
@@ -63,6 +63,11 @@ where
         Form::Ganzenmueller => total(TotalForm::Ganzenmueller(10.0)),
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
+        Form::ArtificialStress => updated(UpdatedForm::ArtificialStress),
+        Form::Laplacian => updated(UpdatedForm::Laplacian),
+        Form::Generalised => updated(UpdatedForm::Generalised),
+        Form::LowDissipation => updated(UpdatedForm::LowDissipation),
+        Form::Unwatched => updated(UpdatedForm::UnwatchedNonHourglass),
     }
 }
 
@@ -136,7 +141,7 @@ where
     Point<D>: InSpace,
 {
     for form in FORMS {
-        let speed = if matches!(form, Form::NonHourglass | Form::UpdatedNested) { 0.2 } else { 0.05 };
+        let speed = if UPDATED.contains(&form) { 0.2 } else { 0.05 };
         for mut points in [block(n, DP), disordered(n, DP, 0.1)] {
             stir(&mut points, speed * Setup::new(DP).moduli.sound_speed(), 60.0 * DP);
             goes_on(form, &points, numbers);
