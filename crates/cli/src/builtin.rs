@@ -21,6 +21,10 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-flag", include_str!("../../../cases/tl-flag.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
+    ("lk-rectangle", include_str!("../../../cases/lk-rectangle.toml")),
+    ("lk-annulus", include_str!("../../../cases/lk-annulus.toml")),
+    ("lk-stability", include_str!("../../../cases/lk-stability.toml")),
+    ("lk-collision", include_str!("../../../cases/lk-collision.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
 ];
 
@@ -41,17 +45,8 @@ const CURVES: &[(&str, &str)] = &[
 ];
 
 /// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] = &[
-    "tl-stent",
-    "ul-plate-3d",
-    "ul-hollow-balls",
-    "ul-ball-plate-2d",
-    "ul-ball-plate-3d",
-    "lk-rectangle",
-    "lk-annulus",
-    "lk-stability",
-    "lk-collision",
-];
+const LATER: &[&str] =
+    &["tl-stent", "ul-plate-3d", "ul-hollow-balls", "ul-ball-plate-2d", "ul-ball-plate-3d"];
 
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {

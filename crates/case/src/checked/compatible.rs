@@ -5,6 +5,7 @@ use super::choices::{Family, Formulation, Plane};
 use super::material::{Material, Model};
 use super::scheme::March;
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::source::Place;
 
 /// Below this Poisson ratio `ul-non-hourglass` is too stiff in bending: by 3 per cent just below it, by 10 at 0.3,
 /// by 29 at 0.1 (its pair force has no exact modulus in the plane).
@@ -17,7 +18,9 @@ fn models(formulation: Formulation) -> &'static [Model] {
         Formulation::TlNested | Formulation::TlGanzenmueller => {
             &[Model::NeoHookean, Model::NeoHookeanLog, Model::SaintVenantKirchhoff]
         }
-        Formulation::UlNonHourglass | Formulation::UlNested => &[Model::LinearElastic],
+        Formulation::UlNonHourglass | Formulation::UlNested | Formulation::SmallStrain => {
+            &[Model::LinearElastic]
+        }
     }
 }
 
@@ -77,6 +80,23 @@ pub(super) fn warnings(bodies: &[Body], materials: &[Material], plane: Option<Pl
             Diagnostic::at(body.place, message).help("above 0.4 the error is below 3 per cent; or use tl-hourglass-free")
         });
     tuned.into_iter().chain(stiff).collect()
+}
+
+/// Refuses planes that a formulation does not have.
+pub(super) fn planes(bodies: &[Body], (plane, place): (Option<Plane>, Place), problems: &mut Problems) {
+    for body in bodies {
+        let (small, name) =
+            (body.scheme.formulation == Formulation::SmallStrain, body.scheme.formulation.name());
+        let (word, help) = match plane {
+            Some(Plane::Stress) if !small => {
+                ("stress", "only small-strain has plane stress; the others take \"strain\" or \"papers\"")
+            }
+            Some(Plane::Papers) if small => ("papers", "small-strain takes \"strain\" or \"stress\""),
+            _ => continue,
+        };
+        let message = format!("`plane = \"{word}\"` does not go with `{name}` of body `{}`", body.name);
+        problems.0.push(Diagnostic::at(place, message).help(help));
+    }
 }
 
 fn pairs<'a>(

@@ -1,7 +1,7 @@
 //! How each body is marched in time: the formulation and what depends on it.
 
 use super::body::Body;
-use super::choices::{Calibration, Family, Formulation, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, Normalisation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
@@ -34,6 +34,13 @@ pub enum March {
         /// Strength of Ganzenmueller's hourglass control.
         alpha: f64,
     },
+    /// Small strain.
+    Small {
+        /// What is done at the edge.
+        normalisation: Normalisation,
+        /// The time step, s; `None` for the stable one.
+        dt: Option<f64>,
+    },
     /// Updated Lagrangian.
     Updated {
         /// How neighbours are renewed.
@@ -57,6 +64,8 @@ pub(crate) struct Schemes {
     reference_speed: Option<(f64, Place)>,
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
+    normalisation: Option<(Normalisation, Place)>,
+    dt: Option<(f64, Place)>,
 }
 
 impl Schemes {
@@ -88,6 +97,10 @@ impl Schemes {
                 choice(n, case::CALIBRATION.name, Calibration::WORDS)
             }),
             alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
+            normalisation: optional(root.get(case::NORMALISATION.name), problems, |n| {
+                choice(n, case::NORMALISATION.name, Normalisation::WORDS)
+            }),
+            dt: optional(of_time(time::DT.name), problems, |n| scope.of(n, &time::DT)),
         }
     }
 
@@ -95,6 +108,10 @@ impl Schemes {
     pub(crate) fn of(&self, own: Option<Formulation>) -> Scheme {
         let formulation = own.unwrap_or(self.formulation);
         let march = match formulation.family() {
+            Family::Total if formulation == Formulation::SmallStrain => March::Small {
+                normalisation: self.normalisation.map_or(defaults::NORMALISATION, |(n, _)| n),
+                dt: self.dt.map(|(dt, _)| dt),
+            },
             Family::Total => March::Total {
                 step: self.step.map_or(defaults::STEP, |(step, _)| step),
                 calibration: self.calibration.map_or(defaults::CALIBRATION, |(calibration, _)| calibration),
@@ -119,6 +136,8 @@ impl Schemes {
         let one_only = [
             ("alpha", self.alpha.map(|(_, place)| place), Formulation::TlGanzenmueller),
             ("calibration", self.calibration.map(|(_, place)| place), Formulation::TlHourglassFree),
+            ("normalisation", self.normalisation.map(|(_, place)| place), Formulation::SmallStrain),
+            ("dt", self.dt.map(|(_, place)| place), Formulation::SmallStrain),
         ];
         for (key, place, formulation) in one_only {
             let used = bodies.iter().any(|body| body.scheme.formulation == formulation);
@@ -135,7 +154,8 @@ impl Schemes {
                 problems.0.push(useless(key, "updated Lagrangian formulations (ul-*)", place));
             }
         }
-        if let Some((_, place)) = self.step.filter(|_| !used(Family::Total)) {
+        let steps = |body: &Body| matches!(body.scheme.march, March::Total { .. });
+        if let Some((_, place)) = self.step.filter(|_| !bodies.iter().any(steps)) {
             problems.0.push(useless("step", "total Lagrangian formulations (tl-*)", place));
         }
     }

@@ -182,5 +182,5 @@ fn looked_at(
     watch.gap(&snapshot)?;
     let mut deformation = Vec::new();
     watch.deformation(&snapshot, &mut deformation);
-    Ok((Framer::new(case.spacing).frame(&snapshot, &deformation, simulation.steps()), snapshot))
+    Ok((Framer::new(case).frame(&snapshot, &deformation, simulation.steps()), snapshot))
 }

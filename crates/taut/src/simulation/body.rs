@@ -3,10 +3,13 @@
 use super::Solver;
 use super::particles::{Point, spacing, total, updated};
 use crate::formulation::Formulation;
+use crate::formulation::small_strain::{Adjoint, Bare, Literal, Normalisation, SmallStrain};
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{self as updated_forms, Hypoelastic, NonHourglass};
 use crate::integrator::{TotalOptions, UpdatedOptions};
-use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff};
+use crate::material::{
+    Hyperelastic, LinearElastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff,
+};
 use crate::run::Cpu;
 
 /// Points of two or three dimensions.
@@ -185,6 +188,37 @@ impl TotalBody<'_> {
             Numbers::Double => Box::new(total(points, formed, self.options, Cpu::new)),
             Numbers::Single => Box::new(total(points, formed, self.options, Cpu::single)),
         }
+    }
+}
+
+/// How a small-strain body meets the edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForm {
+    /// As [`Bare`].
+    None,
+    /// As [`Literal`].
+    Literal,
+    /// As [`Adjoint`].
+    #[default]
+    Adjoint,
+}
+
+/// A small-strain body.
+#[must_use]
+pub fn small_strain_body(
+    points: Points<'_>,
+    (edge, material): (EdgeForm, LinearElastic),
+    options: TotalOptions,
+    numbers: Numbers,
+) -> Box<dyn Solver> {
+    fn with<N: Normalisation>(body: &TotalBody<'_>, material: LinearElastic) -> Box<dyn Solver> {
+        body.with(SmallStrain::<N>::new(material, body.options.kernel))
+    }
+    let body = TotalBody { points, moduli: material.moduli, options, numbers };
+    match edge {
+        EdgeForm::None => with::<Bare>(&body, material),
+        EdgeForm::Literal => with::<Literal>(&body, material),
+        EdgeForm::Adjoint => with::<Adjoint>(&body, material),
     }
 }
 

@@ -99,6 +99,7 @@ pub(crate) fn state<const D: usize>(run: &impl Run<D>, place: usize, shear_energ
     let ratio = density / rest;
     State {
         deformation: None,
+        gradient: None,
         density,
         cauchy: s.lift(word(Quantity::AxialShearStress, 0)).plus_diagonal(-pressure),
         strain_energy: word(Quantity::Mass, 0) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,
