@@ -44,7 +44,7 @@ pub enum MeasureKind {
         feature: Feature,
     },
     /// A field at the end.
-    Field(Comparison),
+    Field(Box<Comparison>),
     /// Kinetic energy at the end over that at the start.
     KineticRatio,
     /// Time of the first contact of two bodies, s.
@@ -236,9 +236,9 @@ impl MeasureReader<'_> {
         let allowed: Vec<Key> = [&[keys::NAME, keys::KIND], kind.keys(), kind.more()].concat();
         titled.only(&allowed, problems);
         let kind = match kind {
-            Measured::ErrorMax | Measured::ErrorRms | Measured::Ratio | Measured::Largest => {
-                problems.keep(self.comparison(kind, &titled, shapes).map(MeasureKind::Field))
-            }
+            Measured::ErrorMax | Measured::ErrorRms | Measured::Ratio | Measured::Largest => problems.keep(
+                self.comparison(kind, &titled, shapes).map(|field| MeasureKind::Field(Box::new(field))),
+            ),
             _ => problems.keep(self.kind(kind, &titled)),
         };
         Some(Measure { name: name?.to_string(), kind: kind? })

@@ -109,6 +109,9 @@ fn widths(case: &Case, results: &ResultDir) -> Result<(), Failure> {
     tell(results, "smoothing", (&title, ("smoothing length over spacing", "1")), &table)
 }
 
+/// What is varied, and how a case changes by a factor of it.
+type Change<'a> = (&'a str, &'a dyn Fn(&mut Case, f64));
+
 /// Fig. 17: over density and stiffness.
 fn materials(case: &Case, results: &ResultDir) -> Result<(), Failure> {
     let density = |case: &mut Case, factor: f64| case.materials.iter_mut().for_each(|m| m.density *= factor);
@@ -120,7 +123,7 @@ fn materials(case: &Case, results: &ResultDir) -> Result<(), Failure> {
             }
         }
     };
-    let changes: [(&str, &dyn Fn(&mut Case, f64)); 2] = [("density", &density), ("stiffness", &stiffness)];
+    let changes: [Change<'_>; 2] = [("density", &density), ("stiffness", &stiffness)];
     for (name, change) in changes {
         let over = |normalisation, limit: &dyn Fn(&Limits) -> Option<f64>| {
             let values = FACTORS.iter().map(|&factor| {
