@@ -19,6 +19,7 @@ mod rebuild;
 mod run;
 mod schema;
 mod signals;
+mod study;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -60,6 +61,10 @@ where
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),
+        Command::Stability(options) => study::stability::stability(&options),
+        Command::Modes(options) => study::vibration::modes(&options),
+        Command::Static(options) => study::vibration::equilibrate(&options),
+        Command::Spectrum(options) => study::spectrum::of_probe(&options),
         Command::Report(options) => rebuild::report(&options),
     };
     match done {

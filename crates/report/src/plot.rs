@@ -41,12 +41,32 @@ pub fn plot_probe(
     reference: Option<&Reference>,
     path: &Path,
 ) -> Result<(), ReportError> {
+    plot((title, TIME), table, reference, path)
+}
+
+/// The axis of most plots.
+const TIME: (&str, &str) = ("time", "s");
+
+/// Draws the columns of `table` as [`plot_probe`] does, over what is called `over`, with its unit, and stands where times would.
+///
+/// # Errors
+/// [`ReportError::Write`] if the file cannot be written.
+pub fn plot_over(title: &str, over: (&str, &str), table: &Table, path: &Path) -> Result<(), ReportError> {
+    plot((title, over), table, None, path)
+}
+
+fn plot(
+    (title, over): (&str, (&str, &str)),
+    table: &Table,
+    reference: Option<&Reference>,
+    path: &Path,
+) -> Result<(), ReportError> {
     let curves: Vec<Curve> =
         table.columns.iter().enumerate().flat_map(|c| curves(c, table, reference)).collect();
     let mut svg = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        chart((title, reference), table, &curves, &area)
+        chart((title, over, reference), table, &curves, &area)
             .and_then(|()| Ok(area.present()?))
             .map_err(|cause| cause.to_string())
     };
@@ -105,17 +125,17 @@ fn curves<'a>(
 /// One chart of all columns of a table.
 pub(crate) fn chart_of(title: &str, table: &Table, area: &Area) -> Drawn {
     let curves: Vec<Curve> = table.columns.iter().enumerate().flat_map(|c| curves(c, table, None)).collect();
-    chart((title, None), table, &curves, area)
+    chart((title, TIME, None), table, &curves, area)
 }
 
 fn chart(
-    (title, reference): (&str, Option<&Reference>),
+    (title, over, reference): (&str, (&str, &str), Option<&Reference>),
     table: &Table,
     curves: &[Curve],
     area: &Area,
 ) -> Drawn {
     let all = || curves.iter().flat_map(|curve| curve.parts.iter().flatten());
-    let time = Axis::new("time", "s", all().map(|point| point.0));
+    let time = Axis::new(over.0, over.1, all().map(|point| point.0));
     let value = value_axis(&table.columns, all().map(|point| point.1));
     area.fill(&WHITE)?;
     if let Some(source) =

@@ -27,7 +27,8 @@ fn models(formulation: Formulation) -> &'static [Model] {
         | Formulation::UlArtificialStress
         | Formulation::UlGeneralised
         | Formulation::UlLowDissipation
-        | Formulation::UlLaplacian => &[Model::LinearElastic],
+        | Formulation::UlLaplacian
+        | Formulation::SmallStrain => &[Model::LinearElastic],
     }
 }
 
@@ -115,6 +116,23 @@ pub(super) fn frozen(bodies: &[Body], stepping: Place) -> Option<Diagnostic> {
     Some(Diagnostic::at(stepping, message).help(
         "`stepping = \"single\"`, the default of ul-artificial-stress; colliding rings blow up with dual stepping",
     ))
+}
+
+/// Refuses planes that a formulation does not have.
+pub(super) fn planes(bodies: &[Body], (plane, place): (Option<Plane>, Place), problems: &mut Problems) {
+    for body in bodies {
+        let (small, name) =
+            (body.scheme.formulation == Formulation::SmallStrain, body.scheme.formulation.name());
+        let (word, help) = match plane {
+            Some(Plane::Stress) if !small => {
+                ("stress", "only small-strain has plane stress; the others take \"strain\" or \"papers\"")
+            }
+            Some(Plane::Papers) if small => ("papers", "small-strain takes \"strain\" or \"stress\""),
+            _ => continue,
+        };
+        let message = format!("`plane = \"{word}\"` does not go with `{name}` of body `{}`", body.name);
+        problems.0.push(Diagnostic::at(place, message).help(help));
+    }
 }
 
 fn pairs<'a>(

@@ -1,6 +1,6 @@
 //! What a case means when it does not say: every default, and why it is so.
 
-use super::choices::{Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, Kernel, Normalisation, Plane, StepRule, Stepping};
 
 /// Total Lagrangian: cheapest for elastic solids, and free of tensile instability; this one is free of
 /// hourglass modes as well.
@@ -22,9 +22,11 @@ pub(crate) fn smoothing(formulation: Formulation) -> f64 {
     }
 }
 
-/// The largest stable fraction that the papers use: 0.6 total Lagrangian, 0.4 for acoustic steps.
+/// The largest stable fraction that the papers use: 0.6 total Lagrangian, 0.4 for acoustic steps. Of small strain the bound is the limit of
+/// stability itself, which a linear body never leaves.
 pub(crate) fn cfl(formulation: Formulation) -> f64 {
     match formulation.family() {
+        Family::Total if formulation == Formulation::SmallStrain => 0.8,
         Family::Total => 0.6,
         Family::Updated => 0.4,
     }
@@ -52,6 +54,9 @@ pub(crate) const KELVIN_VOIGT: f64 = 1.0;
 
 /// What the paper's figures were made with.
 pub(crate) const CALIBRATION: Calibration = Calibration::Paper;
+
+/// The one that conserves momentum and energy.
+pub(crate) const NORMALISATION: Normalisation = Normalisation::Adjoint;
 
 /// Share of the steps in which splitting damping acts: the paper's method with what worked in trials.
 pub(crate) const PROBABILITY: f64 = 0.2;
@@ -116,7 +121,11 @@ mod tests {
             format!("{} total Lagrangian, {} updated Lagrangian", of(total), of(updated))
         };
         assert_eq!(said(&case::SMOOTHING), both(smoothing));
-        assert_eq!(said(&time::CFL), both(cfl));
+        assert_eq!(
+            said(&time::CFL),
+            format!("{}; {} for small-strain", both(cfl), cfl(Formulation::SmallStrain))
+        );
+        assert_eq!(said(&case::NORMALISATION), word(NORMALISATION));
         assert_eq!(said(&case::FORMULATION), word(FORMULATION));
         assert_eq!(said(&case::PLANE), format!("{}, in 2D", word(PLANE)));
         assert_eq!(said(&case::KERNEL), word(KERNEL));

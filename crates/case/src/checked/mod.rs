@@ -3,6 +3,7 @@
 mod body;
 mod case;
 mod choices;
+mod compare;
 mod compatible;
 mod contact;
 mod curves;
@@ -33,7 +34,9 @@ mod tool;
 
 pub use body::{Body, Fill};
 pub use case::Case;
-pub use choices::{Axis, Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
+pub use choices::{Axis, Calibration, Family, Formulation, Kernel, Normalisation, Plane, StepRule, Stepping};
+pub(crate) use compare::Seen;
+pub use compare::{Compared, Comparison, Statistic};
 pub use contact::Contact;
 pub use curves::Curves;
 pub(crate) use defaults::cfl as default_cfl;

@@ -7,7 +7,7 @@ use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
 use super::scope::Scope;
-use super::{contact, parameters, statics, time};
+use super::{compatible, contact, parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
@@ -56,6 +56,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     let spacing = problems.keep(scope.need(&top, &keys::SPACING));
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
+    let named = top.get(keys::PLANE.name).map_or(Place::START, |node| node.place);
+    compatible::planes(&parts.bodies, (plane, named), problems);
     let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
     contact::refuse_statics(root, (&parts.contacts, parts.bodies.len(), parts.tools.len()), problems);
     let (time, monitor) = times?;

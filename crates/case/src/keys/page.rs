@@ -112,6 +112,7 @@ fn shapes_and_fillings(page: &mut String) {
     }
     page.push_str("\n## Fillings\n\n");
     words(page, fill::CHOICES);
+    page.push_str("- `{ polar = { around = 36 } }`: layers around the centre of a ring in 2D with as many particles each, one behind the other, each with its sector.\n");
 }
 
 fn expressions(page: &mut String) {

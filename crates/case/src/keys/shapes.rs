@@ -71,7 +71,7 @@ pub(crate) mod shape {
 
 /// Fillings.
 pub(crate) mod fill {
-    use super::super::{Choice, Key, Kind, Need};
+    use super::super::{Choice, Key, Kind, Need, Range};
     use crate::units::Dimension;
 
     pub(crate) const ORIGIN: Key = Key::new(
@@ -80,6 +80,19 @@ pub(crate) mod fill {
         Need::Required,
         "A corner of one cell; particles stand in the middle of cells.",
     );
+    pub(crate) const AROUND: Key = Key::new(
+        "around",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Required,
+        "Particles of each ring, a whole number from 3 on.",
+    );
+    pub(crate) const RINGS: Key = Key::new(
+        "rings",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("the wall over the spacing, rounded"),
+        "How many rings, a whole number.",
+    );
+    pub(crate) const POLAR: &str = "polar";
     pub(crate) const LATTICE: &str = "lattice";
     pub(crate) const CONCENTRIC: &str = "concentric";
 

@@ -7,7 +7,7 @@ pub(crate) mod case {
         measure, probe, quasi_static, tool,
     };
     use super::{material, monitor, region, time};
-    use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
+    use crate::checked::{Calibration, Formulation, Kernel, Normalisation, Plane, Stepping};
     use crate::units::Dimension;
 
     pub(crate) const NAME: Key = Key::new(
@@ -90,6 +90,12 @@ pub(crate) mod case {
         Need::Default("true"),
         "Whether `ul-non-hourglass`, whose motion needs no shear stress, integrates one to be looked at. Without it files and pictures have the pressure alone, and the run is faster.",
     );
+    pub(crate) const NORMALISATION: Key = Key::new(
+        "normalisation",
+        Kind::Choice(Normalisation::choices),
+        Need::Default("adjoint"),
+        "What `small-strain` does about the part of the kernel that is missing at the edge of a body.",
+    );
     const PARAMETERS: Key = Key::new(
         "parameters",
         Kind::Parameters,
@@ -120,6 +126,7 @@ pub(crate) mod case {
             KELVIN_VOIGT,
             CALIBRATION,
             SHEAR_STRESS,
+            NORMALISATION,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),
@@ -216,7 +223,7 @@ pub(crate) mod time {
     pub(crate) const CFL: Key = Key::new(
         "cfl",
         Kind::Number(Dimension::NUMBER, Range::Share),
-        Need::Default("0.6 total Lagrangian, 0.4 updated Lagrangian"),
+        Need::Default("0.6 total Lagrangian, 0.4 updated Lagrangian; 0.8 for small-strain"),
         "Fraction of the stable time step that is taken.",
     );
     pub(crate) const STEP: Key = Key::new(
@@ -225,10 +232,16 @@ pub(crate) mod time {
         Need::Default("stretch"),
         "How total Lagrangian bodies bound their time step.",
     );
+    pub(crate) const DT: Key = Key::new(
+        "dt",
+        Kind::Number(Dimension::TIME, Range::Positive),
+        Need::Default("cfl times the limit of stability"),
+        "A time step for `small-strain`, whose limit of stability does not change in a run; longer than that limit it blows up.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[time]",
         doc: "How long the run is, and how often something is written.",
-        keys: &[END, OUTPUT, CFL, STEP],
+        keys: &[END, OUTPUT, CFL, STEP, DT],
         example: "[time]\nend = \"0.5 s\"\noutput = \"10 ms\"",
     };
 }

@@ -142,7 +142,7 @@ fn formulations(case: &Case) -> String {
 }
 
 /// Masses in the order of ids, kg.
-fn mass(simulation: &Simulation) -> Vec<f64> {
+pub(crate) fn mass(simulation: &Simulation) -> Vec<f64> {
     let mut mass = vec![0.0; simulation.len()];
     let mut first = 0;
     for solver in simulation.solvers() {

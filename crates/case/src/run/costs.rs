@@ -44,7 +44,7 @@ impl Costs {
         rates: &Rates,
     ) -> Result<Self, RunError> {
         let (mut snapshot, mut deformation) = (Snapshot::default(), Vec::new());
-        let (mut framer, mut rehearsal) = (Framer::new(case.spacing), output::Rehearsal::default());
+        let (mut framer, mut rehearsal) = (Framer::new(case), output::Rehearsal::default());
         let apart = (rates.steps / rates.frames) as u64;
         let look = median(|| {
             simulation.snapshot(&mut snapshot);

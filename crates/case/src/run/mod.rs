@@ -4,6 +4,7 @@ mod alarm;
 mod audit;
 mod books;
 mod checkpoint;
+mod compare;
 mod contact;
 mod convergence;
 mod costs;
@@ -22,8 +23,11 @@ mod trial;
 mod watcher;
 mod writer;
 
+pub(crate) use books::mass as masses;
 pub use checkpoint::{Checkpoints, INTERVAL, Interrupted, ResumeError, Stop};
 pub use error::RunError;
+pub(crate) use frames::Framer;
+pub(crate) use measures::fields as fields_measured;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;

@@ -25,9 +25,6 @@ const BENCHMARKS: &[&str] = &[
     "lk-collision",
 ];
 
-/// Formulations of the contract that are not there yet.
-const LATER: &[&str] = &["small-strain"];
-
 fn here(arguments: &[&str]) -> Ended {
     let folder = tempfile::tempdir().expect("a folder");
     let ended = taut(folder.path(), arguments);
@@ -110,16 +107,6 @@ fn benchmarks_are_there_or_come_later() {
         }
         let message = here(&["run", name]).with(2).stderr;
         assert_eq!(message, format!("error: the benchmark {name} comes in a later version.\n"));
-    }
-}
-
-#[test]
-fn what_comes_later_says_so_in_one_sentence() {
-    for name in LATER {
-        let message = here(&["run", "--formulation", name]).with(2).stderr;
-        let sentence = format!("error: the formulation `{name}` is planned, but not in this version");
-        assert!(message.lines().any(|line| line == sentence), "{message}");
-        assert!(message.contains(&format!("--formulation {name}")), "{message}");
     }
 }
 

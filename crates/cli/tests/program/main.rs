@@ -10,6 +10,7 @@ mod loads;
 mod report;
 mod results;
 mod resume;
+mod studies;
 mod wrong_input;
 
 use std::path::Path;

@@ -31,7 +31,7 @@ const BOOKS: usize = 8;
 
 impl Met {
     /// Adds a force at a place.
-    fn add(&mut self, force: Vector<f64, 3>, x: Vector<f64, 3>) {
+    pub(super) fn add(&mut self, force: Vector<f64, 3>, x: Vector<f64, 3>) {
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             self.force[k] += force[k];
@@ -58,6 +58,7 @@ impl Contact {
             }
             met.add(self.force_on(i), self.surfaces.x[a]);
         }
+        self.penalties.met(&mut met, body, by);
         met
     }
 
@@ -73,6 +74,11 @@ impl Contact {
                 ((member.solver, self.surfaces.ids[a]), self.surfaces.x[a].0, force.0)
             })
         })
+    }
+
+    /// Notes the work and impulses of penalties in a step of `dt`.
+    pub(super) fn note_penalties(&mut self, solvers: &[Box<dyn Solver>], dt: f64) {
+        self.ledger.work += self.penalties.passed(solvers, dt, &mut self.ledger.impulse);
     }
 
     /// Notes the work of prescribed motion and the loss of a step of `dt`.
@@ -108,7 +114,8 @@ impl Contact {
         let facings = self.facings.all.iter();
         let pressed = facings.clone().map(|facing| scene.energy(facing));
         let held = facings.zip(&self.springs.all).map(|(facing, spring)| scene.held(facing, spring));
-        pressed.chain(held).fold(0.0, |sum, energy| sum + energy)
+        let penalties = self.penalties.energy(solvers);
+        pressed.chain(held).fold(penalties, |sum, energy| sum + energy)
     }
 
     /// All that contact remembers from step to step: its books, and the springs of friction. Everything else follows from where the bodies

@@ -3,13 +3,16 @@
 use super::Solver;
 use super::particles::{Point, spacing, total, updated};
 use crate::formulation::Formulation;
+use crate::formulation::small_strain::{Adjoint, Bare, Literal, Normalisation, SmallStrain};
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{
     self as updated_forms, ArtificialStress, Generalised, Hypoelastic, Laplacian, LowDissipation,
     NonHourglass, Unwatched,
 };
 use crate::integrator::{TotalOptions, UpdatedOptions};
-use crate::material::{Hyperelastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff};
+use crate::material::{
+    Hyperelastic, LinearElastic, Moduli, NeoHookean, NeoHookeanLog, PairShear, SaintVenantKirchhoff,
+};
 use crate::run::Cpu;
 
 /// Points of two or three dimensions.
@@ -217,6 +220,37 @@ impl TotalBody<'_> {
             Numbers::Double => Box::new(total(points, formed, self.options, Cpu::new)),
             Numbers::Single => Box::new(total(points, formed, self.options, Cpu::single)),
         }
+    }
+}
+
+/// How a small-strain body meets the edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForm {
+    /// As [`Bare`].
+    None,
+    /// As [`Literal`].
+    Literal,
+    /// As [`Adjoint`].
+    #[default]
+    Adjoint,
+}
+
+/// A small-strain body.
+#[must_use]
+pub fn small_strain_body(
+    points: Points<'_>,
+    (edge, material): (EdgeForm, LinearElastic),
+    options: TotalOptions,
+    numbers: Numbers,
+) -> Box<dyn Solver> {
+    fn with<N: Normalisation>(body: &TotalBody<'_>, material: LinearElastic) -> Box<dyn Solver> {
+        body.with(SmallStrain::<N>::new(material, body.options.kernel))
+    }
+    let body = TotalBody { points, moduli: material.moduli, kelvin_voigt: 0.0, options, numbers };
+    match edge {
+        EdgeForm::None => with::<Bare>(&body, material),
+        EdgeForm::Literal => with::<Literal>(&body, material),
+        EdgeForm::Adjoint => with::<Adjoint>(&body, material),
     }
 }
 

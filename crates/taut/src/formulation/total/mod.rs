@@ -104,6 +104,7 @@ impl<M: Hyperelastic> Solid<M> {
         let j = f.det();
         State {
             deformation: Some(f.lift(1.0)),
+            gradient: None,
             density: self.material.moduli().density / j,
             cauchy: self.material.kirchhoff(f).times(1.0 / j),
             strain_energy: self.material.energy(f) * word(Quantity::Volume, 0),
