@@ -86,7 +86,8 @@ pub(super) fn orient(surface: &mut Surface) -> Result<Pieces, MeshError> {
                     continue;
                 }
                 let next = next as usize;
-                let wanted = pieces.turned[face] != !agree[face][side];
+                // Neighbours that agree are both turned or both not.
+                let wanted = pieces.turned[face] == agree[face][side];
                 if pieces.of[next] == NONE {
                     pieces.of[next] = pieces.count as u32;
                     pieces.turned[next] = wanted;

@@ -90,11 +90,8 @@ impl Surface {
     pub fn compact(&mut self) {
         let mut new = vec![u32::MAX; self.points.len()];
         self.faces.as_flattened().iter().for_each(|&corner| new[corner as usize] = 0);
-        let mut count = 0;
-        for place in new.iter_mut().filter(|place| **place == 0) {
-            *place = count;
-            count += 1;
-        }
+        let used = new.iter_mut().filter(|place| **place == 0);
+        (0..).zip(used).for_each(|(count, place)| *place = count);
         let mut used = new.iter().map(|&place| place != u32::MAX);
         self.points.retain(|_| used.next().unwrap_or(false));
         for face in &mut self.faces {
