@@ -33,7 +33,7 @@ fn closed_meshes_are_taken_as_they_are() {
     {
         let (_, report) = report(name);
         assert!(report.is_closed() && !report.winding, "{name}: {report:?}");
-        assert_eq!(report.doubts(), [""; 0], "{name}");
+        assert_eq!(report.doubts("m"), [""; 0], "{name}");
         assert_eq!(report.pieces, pieces);
         has_volume(&report, volume);
     }
@@ -63,7 +63,7 @@ fn small_holes_are_closed_and_told() {
     assert!(!report.is_closed() && !report.winding);
     // The full icosphere of make.py has 4047.05 mm^3 as printed by trimesh; flat caps of single triangles give all of it back.
     has_volume(&report, FULL_BALL);
-    let doubts = report.doubts();
+    let doubts = report.doubts("m");
     assert!(
         doubts[0].starts_with("it is open: 12 holes were closed by flat caps, the largest "),
         "{doubts:?}"
@@ -91,10 +91,7 @@ fn flipped_triangles_are_turned_and_counted() {
     let (mesh, report) = report("capsule-flipped.stl");
     assert_eq!(report.mended.turned, FLIPPED);
     assert!(report.is_closed() && !report.winding);
-    assert_eq!(
-        report.doubts(),
-        [format!("{FLIPPED} triangles were turned to look outwards like their neighbours")]
-    );
+    assert_eq!(report.doubts("m"), [format!("{FLIPPED} triangles were turned to look outwards")]);
     assert!(mesh.distance([0.0, 0.0, 10.0 * MM]) < -4.5 * MM);
 }
 
@@ -116,7 +113,7 @@ fn parts_that_cross_are_joined() {
     assert!(report.winding && report.crossings.pairs > 0, "{report:?}");
     let doubt =
         format!("it meets itself: {} pairs of triangles cross or touch, first at (", report.crossings.pairs);
-    assert!(report.doubts()[0].starts_with(&doubt), "{:?}", report.doubts());
+    assert!(report.doubts("m")[0].starts_with(&doubt), "{:?}", report.doubts("m"));
     let inside = |x: Point| {
         let [x, y, z] = x.map(|c| c / MM);
         let one = x.abs() < 10.0 && y.abs() < 5.0 && z.abs() < 5.0;
@@ -133,7 +130,7 @@ fn a_pipe_without_ends_gets_flat_ones_and_a_warning() {
     assert_eq!((report.mended.holes.len(), report.mended.large_holes(report.area)), (2, 2));
     assert!(
         report.winding
-            && report.doubts()[0].contains("2 of them so large that how they are closed shapes the body")
+            && report.doubts("m")[0].contains("2 so large that the body is what the caps make of it")
     );
     // The axis of a PyVista cylinder is x. A prism over a polygon of 24 corners.
     has_volume(&report, 20.0 * 12.0 * 25.0 * (std::f64::consts::TAU / 24.0).sin());

@@ -11,6 +11,7 @@ mod diagnosis;
 mod error;
 mod frames;
 mod history;
+mod kept;
 mod measures;
 mod memory;
 mod reactions;

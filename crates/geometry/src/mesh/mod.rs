@@ -26,7 +26,7 @@ pub use thin::Thin;
 use crate::bounds::Bounds;
 use crate::point::{Point, dot, sub};
 use sign::Normals;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use surface::{Surface, area_vector};
 use tree::Tree;
 use winding::Dipoles;
@@ -48,6 +48,7 @@ struct Inner {
     pieces: usize,
     mended: Mended,
     crossings: Crossings,
+    thinnest: OnceLock<Option<Thin>>,
 }
 
 /// How it is found out on which side of the surface a point is.
@@ -95,7 +96,15 @@ impl Mesh {
         } else {
             Side::Winding(Dipoles::new(&tree))
         };
-        Ok(Self(Arc::new(Inner { surface, tree, side, pieces, mended, crossings })))
+        Ok(Self(Arc::new(Inner {
+            surface,
+            tree,
+            side,
+            pieces,
+            mended,
+            crossings,
+            thinnest: OnceLock::new(),
+        })))
     }
 
     /// The signed distance from `x` to the surface, m, negative inside. Inside is what the pseudo-normal of the nearest point
@@ -138,9 +147,10 @@ impl Mesh {
         &self.0.surface.faces
     }
 
-    /// The thinnest part of the body; `None` if no two parts of its surface look away from each other.
+    /// The thinnest part of the body; `None` if no two parts of its surface look away from each other. Found when it is first
+    /// asked for.
     pub fn thinnest(&self) -> Option<Thin> {
-        thin::thinnest(&self.0.tree)
+        *self.0.thinnest.get_or_init(|| thin::thinnest(&self.0.tree))
     }
 
     /// What there is to say about it.

@@ -50,65 +50,111 @@ impl MeshReport {
         self.mended.holes.is_empty() && self.mended.open == 0
     }
 
-    /// What a user should know before trusting the body; each a sentence with a number.
-    pub fn doubts(&self) -> Vec<String> {
-        let Mended { holes, .. } = &self.mended;
+    /// All of it, a line for each thing that can be asked; `unit` is the name of the unit of length.
+    pub fn lines(&self, unit: &str) -> Vec<String> {
+        let m = &self.mended;
+        let [x, y, z] = self.bounds.extent().map(short);
+        let (volume, area) = (short(self.volume), short(self.area));
+        let closed = if self.is_closed() { "closed".to_string() } else { self.open(unit) };
+        let turned = match m.turned {
+            0 => "all triangles look outwards".to_string(),
+            turned => format!("{} turned to look outwards", count(turned, "triangle was", "triangles were")),
+        };
+        let thin = match self.thinnest {
+            Some(Thin { thickness, at }) => format!("{} {unit} at {}", short(thickness), place(at, unit)),
+            None => "no two sides face away from each other".to_string(),
+        };
+        let inside = if self.winding { "winding number" } else { "normals of the nearest triangles" };
+        vec![
+            format!("triangles   {}, {} points", self.triangles, self.points),
+            format!("size        {x} x {y} x {z} {unit}, from {}", place(self.bounds.min, unit)),
+            format!("volume      {volume} {unit}^3, area {area} {unit}^2"),
+            format!("thinnest    {thin}"),
+            format!("pieces      {}", self.pieces_in_words()),
+            format!("surface     {closed}"),
+            format!("direction   {turned}"),
+            format!("crossings   {}", self.crossings_in_words(unit)),
+            format!("without area {}, twice there {}, in sheets {}", m.degenerate, m.duplicates, m.sheets),
+            format!("inside by   {inside}"),
+        ]
+    }
+
+    fn pieces_in_words(&self) -> String {
+        match self.mended.cavities {
+            0 => self.pieces.to_string(),
+            cavities => format!(
+                "{}, of which {} in another",
+                self.pieces,
+                count(cavities, "is a cavity", "are cavities")
+            ),
+        }
+    }
+
+    fn crossings_in_words(&self, unit: &str) -> String {
+        let Crossings { pairs, at, tangled } = self.crossings;
+        let least = if tangled { "at least " } else { "" };
+        match at {
+            None if tangled => "not all pairs were looked at: there are too many".to_string(),
+            None => "none".to_string(),
+            Some(at) => {
+                let pairs =
+                    count(pairs, "pair of triangles crosses or touches", "pairs of triangles cross or touch");
+                format!("{least}{pairs}, first at {}", place(at, unit))
+            }
+        }
+    }
+
+    /// Holes in words.
+    fn open(&self, unit: &str) -> String {
+        let Mended { holes, open, .. } = &self.mended;
+        let mut said = Vec::new();
+        if let Some(Hole { across, edges, at, .. }) = holes.first() {
+            let (holes, at) = (count(holes.len(), "hole was", "holes were"), place(*at, unit));
+            said.push(format!(
+                "{holes} closed by flat caps, the largest {} {unit} across with {edges} edges at {at}",
+                short(*across)
+            ));
+        }
+        if *open > 0 {
+            said.push(format!("{} still open", count(*open, "edge is", "edges are")));
+        }
+        format!("open: {}", said.join("; "))
+    }
+
+    /// What a user should know before trusting the body, each with a number; `unit` is the name of the unit of length.
+    pub fn doubts(&self, unit: &str) -> Vec<String> {
+        let m = &self.mended;
         let mut doubts = Vec::new();
-        if let Some(Hole { across, at, .. }) = holes.first() {
-            let large = self.mended.large_holes(self.area);
-            let how = if large > 0 {
-                format!("; {large} of them so large that how they are closed shapes the body")
+        if !self.is_closed() {
+            let large = m.large_holes(self.area);
+            let shape = if large > 0 {
+                format!("; {large} so large that the body is what the caps make of it")
             } else {
                 String::new()
             };
-            doubts.push(format!(
-                "it is open: {} closed by flat caps, the largest {across:.4e} m across at {}{how}",
-                count(holes.len(), "hole was", "holes were"),
-                place(*at)
-            ));
+            doubts.push(format!("it is {}{shape}", self.open(unit)));
         }
-        doubts.extend(self.mending());
-        if self.crossings.pairs > 0 {
-            let least = if self.crossings.tangled { "at least " } else { "" };
-            let at = self.crossings.at.map_or(String::new(), |at| format!(", first at {}", place(at)));
-            doubts.push(format!("it meets itself: {least}{} of triangles cross or touch{at}; where it overlaps itself it is counted once", count(self.crossings.pairs, "pair", "pairs")));
+        if self.crossings.at.is_some() || self.crossings.tangled {
+            let told = self.crossings_in_words(unit);
+            doubts.push(format!("it meets itself: {told}; join such parts in the program that drew them, or give each a file and unite them"));
         }
-        doubts
-    }
-
-    /// What was mended, in sentences.
-    fn mending(&self) -> Vec<String> {
-        let m = &self.mended;
-        let mut said = Vec::new();
         let mut say = |number: usize, one: &str, many: &str, rest: &str| {
             if number > 0 {
-                said.push(format!("{}{rest}", count(number, one, many)));
+                doubts.push(format!("{}{rest}", count(number, one, many)));
             }
         };
-        say(
-            m.turned,
-            "triangle was turned",
-            "triangles were turned",
-            " to look outwards like their neighbours",
-        );
-        say(m.inside_out, "piece was inside out", "pieces were inside out", "");
+        say(m.turned, "triangle was", "triangles were", " turned to look outwards");
+        say(m.inside_out, "whole piece was", "whole pieces were", " the wrong way round");
         say(
             m.duplicates,
             "triangle was",
             "triangles were",
-            " there twice, or as the wall between parts that touch, and left out",
+            " left out, being there twice or the wall between parts that touch",
         );
-        say(m.degenerate, "triangle has", "triangles have", " no area");
-        say(
-            m.sheets,
-            "triangle belongs",
-            "triangles belong",
-            " to sheets that enclose nothing, and was left out",
-        );
-        say(m.welded, "corner was", "corners were", " joined across gaps of rounding size");
+        say(m.sheets, "triangle was", "triangles were", " left out, in sheets that enclose nothing");
+        say(m.welded, "corner was", "corners were", " moved by rounding errors to join others");
         say(m.crowded, "edge has", "edges have", " more than two triangles");
-        say(m.open, "edge is", "edges are", " still open");
-        said
+        doubts
     }
 }
 
@@ -116,6 +162,12 @@ fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-fn place([x, y, z]: [f64; 3]) -> String {
-    format!("({x:.4e}, {y:.4e}, {z:.4e}) m")
+/// Four digits.
+fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+fn place(at: [f64; 3], unit: &str) -> String {
+    let [x, y, z] = at.map(short);
+    format!("({x}, {y}, {z}) {unit}")
 }
