@@ -12,6 +12,9 @@ use std::collections::HashMap;
 /// A piece whose volume is smaller than this times its area to the power 3/2 is a sheet: a plate three millionths as thick as wide.
 const SHEET: f64 = 1e-6;
 
+/// Triangles that rays meet at most before pieces are no longer looked for in each other.
+const MOST_MET: usize = 100_000_000;
+
 /// Rays look along this direction, which no drawing has.
 const ASKEW: Point = [0.532_791_846_2, 0.281_337_914_3, 0.798_146_235_7];
 
@@ -132,6 +135,7 @@ fn depths(surface: &Surface, tree: &Tree, pieces: &Pieces) -> Vec<usize> {
     for (face, &piece) in pieces.of.iter().enumerate() {
         members[piece as usize].push(face as u32);
     }
+    let mut left = MOST_MET;
     let around = |(piece, faces): (usize, &Vec<u32>)| {
         let mut all: HashMap<u32, usize> = HashMap::new();
         for face in [faces[0], faces[faces.len() / 2], faces[faces.len() - 1]] {
@@ -139,7 +143,8 @@ fn depths(surface: &Surface, tree: &Tree, pieces: &Pieces) -> Vec<usize> {
             let start = middle(&surface.corners(surface.faces[face as usize]));
             tree.ray(start, ASKEW, |hit| {
                 *crossed.entry(pieces.of[tree.faces[hit.at] as usize]).or_default() += 1;
-                true
+                left = left.saturating_sub(1);
+                left > 0
             });
             for (other, _) in
                 crossed.into_iter().filter(|&(other, times)| times % 2 == 1 && other as usize != piece)
@@ -147,7 +152,7 @@ fn depths(surface: &Surface, tree: &Tree, pieces: &Pieces) -> Vec<usize> {
                 *all.entry(other).or_default() += 1;
             }
         }
-        all.values().filter(|&&times| times == 3).count()
+        if left > 0 { all.values().filter(|&&times| times == 3).count() } else { 0 }
     };
     members.iter().enumerate().map(around).collect()
 }

@@ -5,7 +5,7 @@ use super::tree::Tree;
 use crate::point::{Point, add, dot, norm, scale, sub};
 
 /// Pairs of triangles that are compared at most; a surface that needs more is tangled.
-const MOST: usize = 30_000_000;
+const MOST: usize = 10_000_000;
 
 /// Triangles no further apart than this share of the size of the mesh touch: a few roundings of coordinates of that size.
 const TOUCHING: f64 = 1e-12;

@@ -34,14 +34,8 @@ pub(super) fn thinnest(tree: &Tree) -> Option<Thin> {
         }
         for weights in STARTS {
             let start = (0..3).fold([0.0; 3], |x, k| add(x, scale(corners[k], weights[k])));
-            let mut first = f64::INFINITY;
-            let mut facing = 0.0;
-            tree.ray(start, scale(n, -1.0), |hit| {
-                if hit.at != at && hit.along < first {
-                    (first, facing) = (hit.along, dot(n, normal(&tree.corners[hit.at])));
-                }
-                true
-            });
+            let Some(hit) = tree.first(start, scale(n, -1.0), at) else { continue };
+            let (first, facing) = (hit.along, dot(n, normal(&tree.corners[hit.at])));
             if facing <= OPPOSITE && thinnest.is_none_or(|thin| first < thin.thickness) {
                 thinnest = Some(Thin { thickness: first, at: start });
             }

@@ -122,12 +122,43 @@ impl Tree {
         best
     }
 
+    /// Where the ray from `x` along `way` first meets another triangle than `but`.
+    pub fn first(&self, x: Point, way: Point, but: usize) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        let mut waiting = vec![(0_u32, 0.0)];
+        while let Some((at, enters)) = waiting.pop() {
+            let least = best.map_or(f64::INFINITY, |hit| hit.along);
+            if enters > least {
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            if node.child > 0 {
+                let ways = [node.child, node.child + 1]
+                    .map(|child| (child, self.nodes[child as usize].bounds.entered(x, way)));
+                let mut ways: Vec<(u32, f64)> =
+                    ways.into_iter().filter_map(|(child, enters)| Some((child, enters?))).collect();
+                // The nearer one is looked at first.
+                ways.sort_by(|a, b| b.1.total_cmp(&a.1));
+                waiting.extend(ways);
+                continue;
+            }
+            for (at, corners) in self.leaf(node).filter(|&(at, _)| at != but) {
+                if let Some(along) = meet(corners, x, way)
+                    && best.is_none_or(|hit| along < hit.along)
+                {
+                    best = Some(Hit { along, at });
+                }
+            }
+        }
+        best
+    }
+
     /// Every place where the ray from `x` along `way` meets the surface, in any order; `tell` says whether to go on.
     pub fn ray(&self, x: Point, way: Point, mut tell: impl FnMut(Hit) -> bool) {
         let mut waiting = vec![0_u32];
         while let Some(at) = waiting.pop() {
             let node = &self.nodes[at as usize];
-            if !node.bounds.meets_ray(x, way) {
+            if node.bounds.entered(x, way).is_none() {
                 continue;
             }
             if node.child > 0 {
@@ -176,13 +207,13 @@ impl Bounds {
         (0..3).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
     }
 
-    /// Whether a ray from `x` enters the box.
-    fn meets_ray(&self, x: Point, way: Point) -> bool {
+    /// How far along a ray from `x` the box begins; `None` if it misses it.
+    fn entered(&self, x: Point, way: Point) -> Option<f64> {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
         for i in 0..3 {
             if way[i] == 0.0 {
                 if x[i] < self.min[i] || x[i] > self.max[i] {
-                    return false;
+                    return None;
                 }
                 continue;
             }
@@ -191,6 +222,6 @@ impl Bounds {
             leave = leave.min(a.max(b));
         }
         // A box without extent along an axis, seen through two roundings, is not missed.
-        enter <= leave + 1e-12 * leave.abs()
+        (enter <= leave + 1e-12 * leave.abs()).then_some(enter)
     }
 }

@@ -84,3 +84,56 @@ fn solid_angle(corners: &[Point; 3], x: Point) -> f64 {
     let denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
     2.0 * volume.atan2(denominator)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::surface::Surface;
+
+    /// A sphere of radius 1, n triangles around it; every `skip`-th is missing.
+    fn sphere(n: u32, skip: usize) -> Tree {
+        let point = |i: u32, j: u32| {
+            let (a, b) = (PI * f64::from(i) / f64::from(n), 2.0 * PI * f64::from(j % n) / f64::from(n));
+            [a.sin() * b.cos(), a.sin() * b.sin(), a.cos()]
+        };
+        let mut surface = Surface::default();
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let [a, b, c, d] = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+            let pair = [[a, b, c], [a, c, d]].into_iter().filter(|t| norm(area_vector(*t)) > 1e-9);
+            pair.for_each(|corners| surface.push(corners).unwrap());
+        }
+        let mut kept = (0..).map(|index: usize| skip == 0 || index % skip != 0);
+        surface.faces.retain(|_| kept.next().unwrap_or(true));
+        Tree::new(&surface)
+    }
+
+    #[test]
+    fn dipoles_agree_with_the_sum_over_all_triangles() {
+        for skip in [0, 7, 2] {
+            let tree = sphere(40, skip);
+            let dipoles = Dipoles::new(&tree);
+            for k in 0..200 {
+                let x = [
+                    0.011 * f64::from(k) - 1.0,
+                    0.3 * f64::from(k % 7) - 1.0,
+                    0.17 * f64::from(k % 11) - 1.0,
+                ];
+                let all: f64 = tree.corners.iter().map(|corners| solid_angle(corners, x)).sum();
+                // A dipole errs by the second moment of its triangles over the distance, (radius/distance)^2 = 1/9 of
+                // its part of the angle, with either sign; a twentieth of a turn of all together is far from deciding.
+                let error = dipoles.winding(&tree, x) - all / (4.0 * PI);
+                assert!(error.abs() < 0.05, "{error} at {x:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn closed_is_a_whole_number_and_half_a_sphere_is_half_at_its_middle() {
+        let tree = sphere(40, 0);
+        let dipoles = Dipoles::new(&tree);
+        assert!((dipoles.winding(&tree, [0.1, 0.2, 0.3]) - 1.0).abs() < 0.02);
+        assert!(dipoles.winding(&tree, [2.0, 1.0, 0.5]).abs() < 0.02);
+        let half = sphere(40, 2);
+        assert!((Dipoles::new(&half).winding(&half, [0.0; 3]) - 0.5).abs() < 0.05);
+    }
+}
