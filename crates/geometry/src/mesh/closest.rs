@@ -21,30 +21,34 @@ pub(super) struct Foot {
     pub part: Part,
 }
 
-/// The point of the triangle nearest to `x`: over the inside if the foot of the perpendicular falls there, else on the nearest edge.
-pub(super) fn foot(corners: &[Point; 3], x: Point) -> Foot {
+/// The point of the triangle nearest to `x`: over the inside if the foot of the perpendicular falls there, else on an edge that has
+/// the foot on its outer side. `None` if it is seen early that its squared distance is not below `least`.
+pub(super) fn foot(corners: &[Point; 3], x: Point, least: f64) -> Option<Foot> {
     let [a, b, c] = *corners;
     let n = area_vector(*corners);
     let size = dot(n, n);
-    if size > 0.0 {
-        // Areas of the triangles that x makes with the edges, as seen along the normal.
-        let part = |from: Point, to: Point| dot(cross(sub(to, from), sub(x, from)), n);
-        if part(a, b) > 0.0 && part(b, c) > 0.0 && part(c, a) > 0.0 {
-            let above = dot(sub(x, a), n) / size;
-            return Foot { x: sub(x, scale(n, above)), part: Part::Face };
-        }
+    let way = sub(x, a);
+    let above = dot(way, n);
+    if size > 0.0 && above * above >= least * size {
+        return None;
+    }
+    // Areas of the triangles that x makes with the edges, as seen along the normal: all zero for a triangle without area.
+    let part = |from: Point, to: Point| dot(cross(sub(to, from), sub(x, from)), n);
+    let parts = [part(a, b), part(b, c), part(c, a)];
+    if parts.iter().all(|&part| part > 0.0) {
+        return Some(Foot { x: sub(x, scale(n, above / size)), part: Part::Face });
     }
     let mut best = Foot { x: a, part: Part::Corner(0) };
-    let mut least = f64::INFINITY;
-    for side in 0..3 {
+    let mut nearest = f64::INFINITY;
+    for side in (0..3).filter(|&side| parts[side] <= 0.0) {
         let foot = on_edge(corners, side, x);
         let way = sub(foot.x, x);
         let squared = dot(way, way);
-        if squared < least {
-            (best, least) = (foot, squared);
+        if squared < nearest {
+            (best, nearest) = (foot, squared);
         }
     }
-    best
+    Some(best)
 }
 
 fn on_edge(corners: &[Point; 3], side: usize, x: Point) -> Foot {
@@ -69,7 +73,7 @@ mod tests {
     #[test]
     fn over_the_inside_an_edge_and_a_corner() {
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
-        let at = |x| foot(&corners, x);
+        let at = |x| foot(&corners, x, f64::INFINITY).unwrap();
         assert_eq!(at([1.0, 1.0, 5.0]), Foot { x: [1.0, 1.0, 0.0], part: Part::Face });
         assert_eq!(at([1.0, -1.0, 5.0]), Foot { x: [1.0, 0.0, 0.0], part: Part::Edge(0) });
         assert_eq!(at([3.0, 3.0, -1.0]), Foot { x: [2.0, 2.0, 0.0], part: Part::Edge(1) });
@@ -79,7 +83,15 @@ mod tests {
     #[test]
     fn a_triangle_without_area_is_its_edges() {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
-        assert_eq!(foot(&corners, [2.0, 1.0, 0.0]).x, [2.0, 0.0, 0.0]);
-        assert_eq!(foot(&[[1.0; 3]; 3], [2.0, 1.0, 1.0]).x, [1.0; 3]);
+        let at = |corners, x| foot(corners, x, f64::INFINITY).unwrap().x;
+        assert_eq!(at(&corners, [2.0, 1.0, 0.0]), [2.0, 0.0, 0.0]);
+        assert_eq!(at(&[[1.0; 3]; 3], [2.0, 1.0, 1.0]), [1.0; 3]);
+    }
+
+    #[test]
+    fn what_is_too_far_by_its_plane_is_passed_over() {
+        let corners = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        assert_eq!(foot(&corners, [1.0, 1.0, 5.0], 24.9), None);
+        assert!(foot(&corners, [1.0, 1.0, 5.0], 25.1).is_some());
     }
 }

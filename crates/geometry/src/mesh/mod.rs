@@ -108,7 +108,7 @@ impl Mesh {
     }
 
     /// The signed distance from `x` to the surface, m, negative inside. Inside is what the pseudo-normal of the nearest point
-    /// says, or, if the surface meets itself, has large or odd holes or triangles without area, a winding number of 1/2 or more.
+    /// says, or, if the surface meets itself, has large or odd holes or triangles without area, a winding number above 1/2.
     pub fn distance(&self, x: Point) -> f64 {
         let Inner { tree, side, .. } = &*self.0;
         let Some(nearest) = tree.nearest(x) else { return f64::INFINITY };

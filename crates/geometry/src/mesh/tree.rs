@@ -101,7 +101,7 @@ impl Tree {
             let node = &self.nodes[at as usize];
             if node.child == 0 {
                 for (at, corners) in self.leaf(node) {
-                    let foot = foot(corners, x);
+                    let Some(foot) = foot(corners, x, least) else { continue };
                     let way = sub(foot.x, x);
                     let squared = dot(way, way);
                     if squared < least {

@@ -102,7 +102,7 @@ mod tests {
             let pair = [[a, b, c], [a, c, d]].into_iter().filter(|t| norm(area_vector(*t)) > 1e-9);
             pair.for_each(|corners| surface.push(corners).unwrap());
         }
-        let mut kept = (0..).map(|index: usize| skip == 0 || index % skip != 0);
+        let mut kept = (0..).map(|index: usize| skip == 0 || !index.is_multiple_of(skip));
         surface.faces.retain(|_| kept.next().unwrap_or(true));
         Tree::new(&surface)
     }
