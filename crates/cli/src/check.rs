@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::arguments::TrialOptions;
 use crate::builtin::{colour, read};
-use crate::say;
+use crate::{mesh, say};
 use case::Case;
 use case::run::{Estimate, RunError, estimate};
 use report::{Picture, View, encoded, picture};
@@ -23,6 +23,7 @@ pub fn check(options: &TrialOptions) -> Result<(), Failure> {
     for tool in &case.tools {
         say!("  tool {}: rigid", tool.name);
     }
+    mesh::of_case(&case);
     print(&case, &e);
     for warning in &e.warnings {
         say!("  warning: {warning}");

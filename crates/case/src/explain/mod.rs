@@ -175,6 +175,7 @@ fn shape(spec: &ShapeSpec) -> String {
         ShapeSpec::Ring { inner, .. } => format!("a ring (inner radius {})", length(*inner)),
         ShapeSpec::Cylinder { .. } => "a cylinder".into(),
         ShapeSpec::Polygon { points, .. } => format!("a polygon of {} corners", points.len()),
+        ShapeSpec::Mesh { file, mesh } => format!("the mesh {file} of {} triangles", mesh.faces().len()),
         ShapeSpec::Union(parts) => format!("the union of {}", shapes(parts)),
         ShapeSpec::Intersection(parts) => format!("what is common to {}", shapes(parts)),
         ShapeSpec::Difference(parts) => match parts.split_first() {

@@ -13,6 +13,7 @@ mod diagnosis;
 mod error;
 mod frames;
 mod history;
+mod kept;
 mod measures;
 mod memory;
 mod reactions;

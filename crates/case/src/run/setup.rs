@@ -2,6 +2,7 @@
 
 use super::checkpoint::{self, Found, Settling};
 use super::error::RunError;
+use super::kept;
 use super::recorder::Remembered;
 use super::writer::Writer;
 use crate::Case;
@@ -43,7 +44,8 @@ fn machine() -> Machine {
 /// If something cannot be written.
 pub fn anew<'a>(case: &'a Case, results: &ResultDir, built: Built) -> Result<Setup<'a>, RunError> {
     let (threads, precision) = (rayon::current_num_threads(), built.numbers.name());
-    let manifest = Manifest::new(case.case_text_as_run(), machine(), threads, precision);
+    let mut manifest = Manifest::new(case.case_text_as_run(), machine(), threads, precision);
+    manifest.files = kept::keep(case, results)?;
     manifest.write(results)?;
     let (simulation, rest) = simulation(built);
     let Rest { probes, watch, numbers, warnings, across } = rest;
