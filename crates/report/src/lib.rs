@@ -6,6 +6,7 @@
 
 mod animation;
 mod audit;
+mod axis;
 mod colours;
 mod corner;
 mod error;
