@@ -48,7 +48,7 @@ record! {
     Flow { v: Velocity, p: Pressure, z: Impedance, body: Body }
 }
 
-/// The force sum: -2 P* grad W V_b, and the power of the limited term.
+/// The force sum: -2 P* grad W V_b, and the power of the limited term and of the jump of pressure.
 struct Momentum;
 
 impl<const D: usize> PairSum<D> for Momentum {
@@ -73,6 +73,11 @@ impl<const D: usize> PairSum<D> for Momentum {
         let mut rate = S::zero();
         ab.divergence(&mut rate, v);
         sum.power = (limited * S::of(-0.5)).mul_add(rate, sum.power);
+        // What the jump of pressure in the density takes of the energy of pressure: (p_a - p_b)^2 / (2 Z), half of it from each.
+        let jump = a.p - b.p;
+        let mut slope = S::zero();
+        ab.divergence(&mut slope, ab.e);
+        sum.power = (jump * jump / (a.z + b.z)).mul_add(-slope, sum.power);
     }
 }
 
