@@ -146,6 +146,14 @@ fn pool_for(threads: Option<usize>, built: &Built) -> Result<rayon::ThreadPool, 
     pool(threads.unwrap_or_else(|| useful_threads(built.particles())).max(1))
 }
 
+/// Does some work on as many threads as so many particles can use.
+///
+/// # Errors
+/// If threads cannot be started.
+pub fn on_useful_threads<T: Send>(particles: f64, work: impl FnOnce() -> T + Send) -> Result<T, RunError> {
+    Ok(pool(useful_threads(particles as usize))?.install(work))
+}
+
 /// As many threads as there are cores, but none without particles enough.
 fn useful_threads(particles: usize) -> usize {
     cores().min((particles / PARTICLES_PER_THREAD).max(1))

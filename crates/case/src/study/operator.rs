@@ -15,8 +15,12 @@ use taut::simulation::Solver;
 const SHIFT: f64 = 1e-10;
 /// More vectors than modes are iterated, so that the last of them converge.
 const MORE: usize = 8;
-/// Most iterations of a subspace, and the relative change of an eigenvalue that ends them.
-const ITERATIONS: (usize, f64) = (300, 1e-11);
+/// Most iterations of a subspace.
+const ITERATIONS: usize = 500;
+/// They end when no eigenvalue changes by more than this share of itself ...
+const CHANGE: f64 = 1e-9;
+/// ... or of the largest of the matrix, which is a hundred times what rounding makes of a rigid motion.
+const ROUNDED: f64 = 1e-14;
 /// A mode is a rigid motion if so much of its square is.
 const RIGID: f64 = 0.9;
 
@@ -30,6 +34,8 @@ pub struct Operator {
     len: usize,
     matrix: SparseColMat<usize, f64>,
     factor: Llt<usize, f64>,
+    /// About the largest eigenvalue, 1/s^2.
+    top: f64,
     /// Rigid motions, orthonormal, as columns.
     rigid: Mat<f64>,
     /// By how much the matrix differs from its transpose, over its largest number.
@@ -79,7 +85,7 @@ impl Operator {
         let top = highest(stiffness.as_mut(), 60);
         let (matrix, factor, asymmetry) = factored(&entries, free.len(), SHIFT * top)?;
         let rigid = rigid_motions(&x, (&free, &root), d);
-        Ok(Self { free, root, len: x.len() * d, matrix, factor, rigid, asymmetry })
+        Ok(Self { free, root, len: x.len() * d, matrix, factor, top, rigid, asymmetry })
     }
 
     /// The lowest modes that are vibrations, and how many rigid motions there are below or among them.
@@ -92,16 +98,16 @@ impl Operator {
         let noise = scattered(n * width);
         let mut y = Mat::from_fn(n, width, |i, j| noise[j * n + i]);
         let mut before = vec![f64::INFINITY; width];
-        for _ in 0..ITERATIONS.0 {
+        for _ in 0..ITERATIONS {
             let z = self.factor.solve(&y).qr().compute_thin_Q();
             let projected = z.transpose() * (&self.matrix * &z);
             let ritz = projected.self_adjoint_eigen(Side::Lower).map_err(|_| StudyError::Unconverged)?;
             y = &z * ritz.U();
             let values: Vec<f64> = (0..width).map(|j| ritz.S().column_vector()[j]).collect();
             let wanted = width - MORE.min(width - 1);
-            let scale = values[width - 1].abs();
-            let still =
-                |j: usize| (values[j] - before[j]).abs() <= ITERATIONS.1 * values[j].abs().max(1e-6 * scale);
+            let still = |j: usize| {
+                (values[j] - before[j]).abs() <= (CHANGE * values[j].abs()).max(ROUNDED * self.top)
+            };
             if (0..wanted).all(still) {
                 return Ok((0..wanted).map(|j| self.mode(values[j], &y, j)).collect());
             }

@@ -6,7 +6,9 @@ pub mod vibration;
 
 use crate::Failure;
 use crate::builtin::colour;
-use case::run::RunError;
+use case::Case;
+use case::build::reckon;
+use case::run::{RunError, on_useful_threads};
 use output::{Column, ResultDir, Table};
 use report::plot_over;
 use std::fmt::Write as _;
@@ -18,6 +20,14 @@ pub fn failed(error: RunError) -> Failure {
         error if error.is_input() => Failure::Input(error.to_string()),
         other => Failure::Run(other.to_string()),
     }
+}
+
+/// Studies a case on as many threads as its particles can use.
+pub fn on_threads<T: Send>(
+    case: &Case,
+    study: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    on_useful_threads(reckon(case), study).map_err(failed)?
 }
 
 /// A column of numbers.

@@ -1,6 +1,6 @@
 //! `taut stability`: how long the steps of a case may be.
 
-use super::{column, failed, tell};
+use super::{column, failed, on_threads, tell};
 use crate::Failure;
 use crate::arguments::StudyOptions;
 use crate::builtin::read;
@@ -22,9 +22,13 @@ const LOADS: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 pub fn stability(options: &StudyOptions) -> Result<(), Failure> {
     let case = read(&options.case)?;
     say::warnings(&case);
-    let rows = computed(&case).map_err(failed)?;
+    on_threads(&case, || limits(&case, options))
+}
+
+fn limits(case: &Case, options: &StudyOptions) -> Result<(), Failure> {
+    let rows = computed(case).map_err(failed)?;
     let guess = rows.iter().filter_map(|(_, limits)| limits.operator).fold(f64::INFINITY, f64::min);
-    let found = if guess.is_finite() { marched(&case, guess).map_err(failed)? } else { None };
+    let found = if guess.is_finite() { marched(case, guess).map_err(failed)? } else { None };
     say!("{}: {}", case.name, case.title);
     say!("{}", table(&rows, found).trim_end());
     if !case.bodies.iter().all(small) {
@@ -33,9 +37,9 @@ pub fn stability(options: &StudyOptions) -> Result<(), Failure> {
     let folder = PathBuf::from("out").join(format!("{}-stability", case.name));
     let out = options.out.clone().unwrap_or(folder);
     let results = ResultDir::create(&out).map_err(|error| Failure::Input(error.to_string()))?;
-    loads(&case, guess, &results)?;
-    widths(&case, &results)?;
-    materials(&case, &results)?;
+    loads(case, guess, &results)?;
+    widths(case, &results)?;
+    materials(case, &results)?;
     say!("loads, smoothing, density and stiffness, each .csv and .svg, in {}", out.display());
     Ok(())
 }

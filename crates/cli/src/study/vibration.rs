@@ -1,6 +1,6 @@
 //! `taut modes` and `taut static`: what the matrix of small-strain bodies says.
 
-use super::failed;
+use super::{failed, on_threads};
 use crate::Failure;
 use crate::arguments::{ModesOptions, StudyOptions};
 use crate::builtin::read;
@@ -28,7 +28,7 @@ fn unwritten(error: output::OutputError) -> Failure {
 pub fn modes(options: &ModesOptions) -> Result<(), Failure> {
     let case = read(&options.case)?;
     say::warnings(&case);
-    let found = lowest(&case, options.count.into()).map_err(unsolved)?;
+    let found = on_threads(&case, || lowest(&case, options.count.into()).map_err(unsolved))?;
     let (results, out) = folder(options.out.as_ref(), &case.name, "modes")?;
     let mut series = Series::create(&results).map_err(unwritten)?;
     let mut table = String::from("number,body,frequency [Hz],omega^2 [1/s^2],zigzag,rigid\n");
@@ -54,7 +54,7 @@ pub fn modes(options: &ModesOptions) -> Result<(), Failure> {
 pub fn equilibrate(options: &StudyOptions) -> Result<(), Failure> {
     let case = read(&options.case)?;
     say::warnings(&case);
-    let found = equilibrium(&case).map_err(unsolved)?;
+    let found = on_threads(&case, || equilibrium(&case).map_err(unsolved))?;
     let (results, out) = folder(options.out.as_ref(), &case.name, "static")?;
     Series::create(&results).and_then(|mut series| series.write(&found.frame)).map_err(unwritten)?;
     say!("{}: {}", case.name, case.title);
