@@ -59,7 +59,8 @@ pub(super) fn close(surface: &mut Surface, pieces: &mut Pieces) -> Vec<Hole> {
 
 /// The closed ways along sorted edges, each edge once. Where several go out of a point a way is cut at its first return.
 fn loops(rims: &[Rim]) -> Vec<(u32, Vec<u32>)> {
-    let mut used = vec![false; rims.len()];
+    // How many of the edges out of a point were taken, at the first of them.
+    let mut taken = vec![0; rims.len()];
     let mut found = Vec::new();
     for start in 0..rims.len() {
         let (piece, from, _) = rims[start];
@@ -67,9 +68,11 @@ fn loops(rims: &[Rim]) -> Vec<(u32, Vec<u32>)> {
         let mut place: HashMap<u32, usize> = HashMap::from([(from, 0)]);
         while let Some(&here) = path.last() {
             let first = rims.partition_point(|&(p, a, _)| (p, a) < (piece, here));
-            let goes_on = |&i: &usize| rims[i].0 == piece && rims[i].1 == here;
-            let Some(next) = (first..rims.len()).take_while(goes_on).find(|&i| !used[i]) else { break };
-            used[next] = true;
+            let Some(next) = taken.get(first).map(|taken| first + taken) else { break };
+            if !rims.get(next).is_some_and(|&(p, a, _)| (p, a) == (piece, here)) {
+                break;
+            }
+            taken[first] += 1;
             let to = rims[next].2;
             match place.get(&to) {
                 Some(&at) => {

@@ -2,10 +2,12 @@
 
 use super::surface::{Surface, area_vector, cross};
 use super::tree::Tree;
+use crate::bounds::Bounds;
 use crate::point::{Point, add, dot, norm, scale, sub};
 
-/// Pairs of triangles that are compared at most; a surface that needs more is tangled.
-const MOST: usize = 10_000_000;
+/// Pairs that are compared at most, whatever the mesh, and for each of its triangles; a surface that needs more is tangled. Sound ones
+/// need some twenty for each triangle.
+const MOST: [usize; 2] = [10_000_000, 100];
 
 /// Triangles no further apart than this share of the size of the mesh touch: a few roundings of coordinates of that size.
 const TOUCHING: f64 = 1e-12;
@@ -26,7 +28,7 @@ pub(super) fn crossings(surface: &Surface, tree: &Tree) -> Crossings {
     let mut found = Crossings::default();
     let extent = tree.nodes[0].bounds.extent();
     let near = TOUCHING * norm(extent);
-    let mut budget = MOST;
+    let mut budget = MOST[0] + MOST[1] * tree.corners.len();
     let mut waiting = vec![(0_u32, 0_u32)];
     while let Some((a, b)) = waiting.pop() {
         if budget == 0 {
@@ -39,8 +41,12 @@ pub(super) fn crossings(surface: &Surface, tree: &Tree) -> Crossings {
         }
         match (one.child, other.child) {
             (0, 0) => {
-                for (i, _) in tree.leaf(one) {
-                    for (j, _) in tree.leaf(other).filter(|&(j, _)| a != b || i < j) {
+                for (i, t) in tree.leaf(one) {
+                    let around = Bounds::around(*t).grown(near);
+                    let later = |&(j, s): &(usize, &[Point; 3])| {
+                        (a != b || i < j) && around.overlaps(&Bounds::around(*s))
+                    };
+                    for (j, _) in tree.leaf(other).filter(later) {
                         budget = budget.saturating_sub(1);
                         if let Some(x) = pair(surface, tree, [i, j], near) {
                             found.pairs += 1;
