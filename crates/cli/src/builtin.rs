@@ -22,6 +22,10 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-plate-3d", include_str!("../../../cases/ul-plate-3d.toml")),
+    ("lk-rectangle", include_str!("../../../cases/lk-rectangle.toml")),
+    ("lk-annulus", include_str!("../../../cases/lk-annulus.toml")),
+    ("lk-stability", include_str!("../../../cases/lk-stability.toml")),
+    ("lk-collision", include_str!("../../../cases/lk-collision.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
     ("ul-hollow-balls", include_str!("../../../cases/ul-hollow-balls.toml")),
     ("ul-ball-plate-2d", include_str!("../../../cases/ul-ball-plate-2d.toml")),
@@ -45,7 +49,7 @@ const CURVES: &[(&str, &str)] = &[
 ];
 
 /// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] = &["tl-stent", "lk-rectangle", "lk-annulus", "lk-stability", "lk-collision"];
+const LATER: &[&str] = &["tl-stent"];
 
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {

@@ -12,6 +12,7 @@ mod check;
 mod explain;
 mod list;
 pub mod memory;
+mod mesh;
 mod new;
 mod pictures;
 mod progress;
@@ -19,6 +20,7 @@ mod rebuild;
 mod run;
 mod schema;
 mod signals;
+mod study;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -57,9 +59,14 @@ where
         Command::Check(options) => check::check(&options),
         Command::Explain(options) => explain::explain(&options),
         Command::New { name } => new::new(&name),
+        Command::Mesh { file } => mesh::mesh(&file),
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),
+        Command::Stability(options) => study::stability::stability(&options),
+        Command::Modes(options) => study::vibration::modes(&options),
+        Command::Static(options) => study::vibration::equilibrate(&options),
+        Command::Spectrum(options) => study::spectrum::of_probe(&options),
         Command::Report(options) => rebuild::report(&options),
     };
     match done {

@@ -152,10 +152,11 @@ fn records<'a>(
 ) -> (Vec<Probe>, Vec<Measure>) {
     let scope = shapes.scope;
     let (sections, names) = named_list(root, "probe", problems);
-    let mut reader = ProbeReader { shapes, bodies, boundaries, touching };
+    let mut reader = ProbeReader { shapes: &mut *shapes, bodies, boundaries, touching };
     let probes: Vec<Probe> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
     let (sections, _) = named_list(root, "measure", problems);
     let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };
-    let measures = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
+    let measures =
+        sections.iter().filter_map(|section| reader.read(section, (&mut *shapes, &mut *problems))).collect();
     (probes, measures)
 }

@@ -142,14 +142,17 @@ fn words(choices: &[Choice]) -> Vec<&'static str> {
 }
 
 fn filling() -> Value {
-    let lattice = object(&[fill::ORIGIN]);
-    let moved = json!({
-        "type": "object",
-        "additionalProperties": false,
-        "properties": { fill::LATTICE: lattice },
-        "required": [fill::LATTICE],
-    });
-    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved] })
+    let one = |name: &str, keys: &[Key]| {
+        json!({
+            "type": "object",
+            "additionalProperties": false,
+            "properties": { name: object(keys) },
+            "required": [name],
+        })
+    };
+    let (moved, polar) =
+        (one(fill::LATTICE, &[fill::ORIGIN]), one(fill::POLAR, &[fill::AROUND, fill::RINGS]));
+    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, polar] })
 }
 
 fn shape() -> Value {

@@ -8,7 +8,9 @@ use taut::kernel::{Kernel, Shape};
 use taut::machine::{Operations, operations};
 use taut::material::{Moduli, NeoHookean, Plane};
 use taut::math::Vector;
-use taut::simulation::{InSpace, Law, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies};
+use taut::simulation::{
+    InSpace, Law, Point, Solver, TotalForm, TotalModel, UpdatedForm, total_body, updated_bodies,
+};
 
 /// Particle spacing, m.
 const DP: f64 = 0.002;
@@ -50,7 +52,8 @@ where
             let law = Law::NeoHookean(NeoHookean { moduli: m, plane: Plane::Strain });
             let options =
                 TotalOptions { kernel: kernel(1.15), cfl: 0.6, wave_speed: WaveSpeed::Stretch, bulk_speed };
-            total_body(Point::points(&points), (form, law), options, subject.numbers)
+            let model = TotalModel { form, law, kelvin_voigt: 1.0 };
+            total_body(Point::points(&points), model, options, subject.numbers)
         }
         Form::Updated(form, stepping) => {
             let options = UpdatedOptions {

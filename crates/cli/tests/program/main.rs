@@ -7,9 +7,11 @@ mod command_line;
 mod diagnosis;
 mod divergence;
 mod loads;
+mod mesh;
 mod report;
 mod results;
 mod resume;
+mod studies;
 mod wrong_input;
 
 use std::path::Path;

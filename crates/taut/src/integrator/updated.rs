@@ -3,6 +3,8 @@
 use super::diverged::{Check, culprit, not_finite};
 use super::limits::largest;
 use super::outside::{self, Midway};
+use super::spectrum::Stiffness;
+use super::tangent::Tangent;
 use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
@@ -303,6 +305,11 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn fields(&self) -> &'static [Quantity] {
         F::FIELDS
+    }
+
+    fn stiffness(&mut self) -> Option<Box<dyn Stiffness + '_>> {
+        let h = self.options.kernel.h();
+        Some(Box::new(Tangent::new(&self.formulation, &mut self.run, h)))
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {

@@ -2,7 +2,7 @@
 //! Lagrangian bodies no stress rate from a rigid velocity field on a fresh configuration.
 
 use crate::common::points::{block, deep, disordered};
-use crate::common::{Clock, FORMS, ONE, SINGLE, STILL, Setup, largest, set, size, tensor};
+use crate::common::{Clock, FINITE, ONE, SINGLE, STILL, Setup, largest, set, size, tensor};
 use taut::field::Quantity;
 use taut::formulation::Formulation;
 use taut::formulation::total::HourglassFree;
@@ -112,7 +112,7 @@ fn translation_makes_no_stress_in_any_formulation() {
     let mut space = disordered([6, 5, 5], DP, 0.25);
     plane.iter_mut().for_each(|p| p.v = Vector([0.1 * c, -0.07 * c]));
     space.iter_mut().for_each(|p| p.v = Vector([0.1 * c, -0.07 * c, 0.03 * c]));
-    for form in FORMS {
+    for form in FINITE {
         for mut body in [setup.body(form, &plane), setup.body(form, &space)] {
             Clock::start(body.as_mut()).expect("finite").steps(body.as_mut(), 20);
             let a = largest(body.as_ref(), Quantity::Acceleration) / setup.acceleration();

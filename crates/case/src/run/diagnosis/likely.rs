@@ -22,11 +22,12 @@ const NOTICED: f64 = 0.004;
 
 /// Everything that speaks for a cause, the likeliest first.
 pub fn signs(evidence: &Evidence<'_>, facts: &Facts) -> Vec<Sign> {
-    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 12] = [
+    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 13] = [
         nothing_to_start_from,
         senseless_load,
         impossible_speed,
         long_steps,
+        given_steps,
         stretched_beyond_the_step,
         zigzag,
         torn,
@@ -88,6 +89,22 @@ fn long_steps(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
             "The time steps are longer than is known to be stable: [time] cfl is {cfl}, and {default} is the most that is."
         ),
         vec![tries::smaller_cfl(cfl, default)],
+    )
+}
+
+/// A linear body has one way to diverge: steps that are too long.
+fn given_steps(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
+    let March::Small { dt: Some(dt), .. } = e.case.bodies.get(e.diverged.body)?.scheme.march else {
+        return None;
+    };
+    if facts.at_start {
+        return None;
+    }
+    sign(
+        format!(
+            "[time] dt is {dt} s, and small strain is unstable beyond 2/omega of its highest frequency (and earlier where contact is stiff): `taut stability` tells that limit; without dt the step is 0.8 of it."
+        ),
+        vec![tries::shorter_steps(dt)],
     )
 }
 

@@ -145,6 +145,7 @@ pub(crate) fn state<const D: usize>(
     let ratio = density / rest;
     State {
         deformation: None,
+        gradient: None,
         density,
         cauchy: s.plus_diagonal(-pressure),
         strain_energy: word(Quantity::Mass) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,

@@ -4,10 +4,11 @@
 pub mod points;
 
 use taut::field::Quantity;
+use taut::formulation::small_strain::{Adjoint, SmallStrain};
 use taut::formulation::{Formulation, total, updated};
 use taut::integrator::{Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed};
 use taut::kernel::{Kernel, Shape};
-use taut::material::{Moduli, NeoHookean, Plane};
+use taut::material::{LinearElastic, Moduli, NeoHookean, Plane};
 use taut::math::Tensor;
 use taut::particles::Particles;
 use taut::pass::Now;
@@ -36,6 +37,8 @@ pub enum Form {
     TotalNested,
     /// `tl-ganzenmueller`.
     Ganzenmueller,
+    /// `small-strain`.
+    SmallStrain,
     /// `ul-non-hourglass`.
     NonHourglass,
     /// `ul-nested`.
@@ -53,10 +56,11 @@ pub enum Form {
 }
 
 /// All of them.
-pub const FORMS: [Form; 10] = [
+pub const FORMS: [Form; 11] = [
     Form::HourglassFree,
     Form::TotalNested,
     Form::Ganzenmueller,
+    Form::SmallStrain,
     Form::NonHourglass,
     Form::UpdatedNested,
     Form::ArtificialStress,
@@ -68,6 +72,20 @@ pub const FORMS: [Form; 10] = [
 
 /// The updated Lagrangian ones.
 pub const UPDATED: [Form; 7] = [
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
+
+/// Those that know large strains, so that turns are none and too fast is too fast.
+pub const FINITE: [Form; 10] = [
+    Form::HourglassFree,
+    Form::TotalNested,
+    Form::Ganzenmueller,
     Form::NonHourglass,
     Form::UpdatedNested,
     Form::ArtificialStress,
@@ -153,6 +171,14 @@ impl Setup {
         total::Ganzenmueller::new(self.material(), self.total_kernel(dimension), 10.0)
     }
 
+    pub fn small_strain(&self, dimension: usize) -> SmallStrain<Adjoint> {
+        SmallStrain::new(LinearElastic::solid(self.moduli), self.total_kernel(dimension))
+    }
+
+    pub fn small_options(&self, dimension: usize) -> TotalOptions {
+        TotalOptions { wave_speed: WaveSpeed::Operator, cfl: 0.8, ..self.total_options(dimension) }
+    }
+
     pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass<updated::Hypoelastic> {
         updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
     }
@@ -219,6 +245,10 @@ impl Setup {
                 let volume: Vec<f64> = points.iter().map(|p| p.volume).collect();
                 let form = self.ganzenmueller(D).among(columns.each_ref().map(Vec::as_slice), &volume);
                 Box::new(simulation::total(points, (form, m), t, run))
+            }
+            Form::SmallStrain => {
+                let t = self.small_options(D);
+                Box::new(simulation::total(points, (self.small_strain(D), m), t, run))
             }
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
