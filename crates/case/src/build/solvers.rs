@@ -75,14 +75,7 @@ where
             let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
             let model = TotalModel { form, law, kelvin_voigt };
-            total_body(points, model, options, numbers).ok_or_else(|| {
-                let message = format!(
-                    "the material `{}` does not go with {}",
-                    body.material,
-                    scheme.formulation.name()
-                );
-                case.error_at(body.place, message, None)
-            })
+            total_body(points, model, options, numbers).ok_or_else(|| unfit(case, body))
         }
         March::Small { normalisation, dt } => {
             let options = TotalOptions {
@@ -100,28 +93,44 @@ where
                 kernel,
                 cfl: scheme.cfl,
                 advection_cfl: 0.2,
-                stepping: match stepping {
-                    Stepping::Dual => integrator::Stepping::Dual,
-                    Stepping::Single => integrator::Stepping::Single,
-                },
+                stepping: stepped(stepping),
                 ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
-            let form = match scheme.formulation {
-                Formulation::UlNested => UpdatedForm::Nested,
-                Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
-                Formulation::UlLaplacian => UpdatedForm::Laplacian,
-                Formulation::UlGeneralised => UpdatedForm::Generalised,
-                Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
-                _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
-                _ => UpdatedForm::NonHourglass,
-            };
+            let form = updated_form(case, scheme.formulation);
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
+    }
+}
+
+/// A material that its formulation cannot carry.
+fn unfit(case: &Case, body: &Body) -> CaseError {
+    let form = body.scheme.formulation.name();
+    case.error_at(body.place, format!("the material `{}` does not go with {form}", body.material), None)
+}
+
+/// When updated Lagrangian lists are made anew.
+fn stepped(stepping: Stepping) -> integrator::Stepping {
+    match stepping {
+        Stepping::Dual => integrator::Stepping::Dual,
+        Stepping::Single => integrator::Stepping::Single,
+    }
+}
+
+/// An updated Lagrangian formulation, with a shear stress to be looked at if the case wants one.
+fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
+    match formulation {
+        Formulation::UlNested => UpdatedForm::Nested,
+        Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+        Formulation::UlLaplacian => UpdatedForm::Laplacian,
+        Formulation::UlGeneralised => UpdatedForm::Generalised,
+        Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+        _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
+        _ => UpdatedForm::NonHourglass,
     }
 }
 

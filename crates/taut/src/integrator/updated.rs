@@ -123,15 +123,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             let (present, listed) = (&mut self.present[axis], &mut self.listed[axis]);
             present.resize(x.len(), 0.0);
             listed.resize(x.len(), 0.0);
-            let chunks = present.par_chunks_mut(COPIED).zip(listed.par_chunks_mut(COPIED)).enumerate();
-            chunks.for_each(|(chunk, (present, listed))| {
-                let first = chunk * COPIED;
-                for (i, (present, listed)) in present.iter_mut().zip(listed).enumerate() {
-                    let there = if time == 0.0 { 0.0 } else { time * v.at(first + i) };
-                    *present = x[first + i];
-                    *listed = *present + there;
-                }
-            });
+            let copy = |(to, from): (&mut [f64], &[f64])| to.copy_from_slice(from);
+            present.par_chunks_mut(COPIED).zip(x.par_chunks(COPIED)).for_each(copy);
+            let there = |k: usize| x[k] + if time == 0.0 { 0.0 } else { time * v.at(k) };
+            listed.par_iter_mut().enumerate().with_min_len(COPIED).for_each(|(k, x)| *x = there(k));
         }
     }
 
