@@ -75,14 +75,7 @@ where
             let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
             let model = TotalModel { form, law, kelvin_voigt };
-            total_body(points, model, options, numbers).ok_or_else(|| {
-                let message = format!(
-                    "the material `{}` does not go with {}",
-                    body.material,
-                    scheme.formulation.name()
-                );
-                case.error_at(body.place, message, None)
-            })
+            total_body(points, model, options, numbers).ok_or_else(|| unfit(case, body))
         }
         March::Small { normalisation, dt } => {
             let options = TotalOptions {
@@ -109,19 +102,31 @@ where
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
-            let form = match scheme.formulation {
-                Formulation::UlNested => UpdatedForm::Nested,
-                Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
-                Formulation::UlLaplacian => UpdatedForm::Laplacian,
-                Formulation::UlGeneralised => UpdatedForm::Generalised,
-                Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
-                _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
-                _ => UpdatedForm::NonHourglass,
-            };
+            let form = updated_form(case, scheme.formulation);
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
+    }
+}
+
+/// A material that a formulation cannot carry.
+fn unfit(case: &Case, body: &Body) -> CaseError {
+    let formulation = body.scheme.formulation.name();
+    let message = format!("the material `{}` does not go with {formulation}", body.material);
+    case.error_at(body.place, message, None)
+}
+
+/// An updated Lagrangian formulation.
+fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
+    match formulation {
+        Formulation::UlNested => UpdatedForm::Nested,
+        Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+        Formulation::UlLaplacian => UpdatedForm::Laplacian,
+        Formulation::UlGeneralised => UpdatedForm::Generalised,
+        Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+        _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
+        _ => UpdatedForm::NonHourglass,
     }
 }
 
