@@ -59,7 +59,7 @@ fn a_short_case_has_the_documented_defaults() {
         broken: 0.01,
         stop: false,
         interval: 0.3 / 50.0,
-        apart: (600, f64::INFINITY),
+        apart: (1000, f64::INFINITY),
     };
     assert_eq!(case.monitor, calm);
     let names: Vec<&str> = case.regions.iter().map(|(name, _)| name.as_str()).collect();
@@ -267,7 +267,9 @@ fn the_built_in_cases_are_right() {
             assert!(case.warnings.len() == known && told.matches("close to 0.5").count() == known, "{told}");
             let nested = if case.formulation.family() == Family::Total { "tl-nested" } else { "ul-nested" };
             let nested = Overrides { formulation: Some(nested.into()), ..Overrides::default() };
-            assert!(Case::read(&path, &nested).is_ok(), "every benchmark has its nested twin");
+            // Plane stress, which small strains have, is none of the others'.
+            let alone = case.formulation == Formulation::SmallStrain;
+            assert!(alone || Case::read(&path, &nested).is_ok(), "every other benchmark has its nested twin");
             count += 1;
         }
     }

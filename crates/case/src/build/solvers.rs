@@ -93,7 +93,10 @@ where
                 kernel,
                 cfl: scheme.cfl,
                 advection_cfl: 0.2,
-                stepping: stepped(stepping),
+                stepping: match stepping {
+                    Stepping::Dual => integrator::Stepping::Dual,
+                    Stepping::Single => integrator::Stepping::Single,
+                },
                 ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
@@ -107,21 +110,14 @@ where
     }
 }
 
-/// A material that its formulation cannot carry.
+/// A material that a formulation cannot carry.
 fn unfit(case: &Case, body: &Body) -> CaseError {
-    let form = body.scheme.formulation.name();
-    case.error_at(body.place, format!("the material `{}` does not go with {form}", body.material), None)
+    let formulation = body.scheme.formulation.name();
+    let message = format!("the material `{}` does not go with {formulation}", body.material);
+    case.error_at(body.place, message, None)
 }
 
-/// When updated Lagrangian lists are made anew.
-fn stepped(stepping: Stepping) -> integrator::Stepping {
-    match stepping {
-        Stepping::Dual => integrator::Stepping::Dual,
-        Stepping::Single => integrator::Stepping::Single,
-    }
-}
-
-/// An updated Lagrangian formulation, with a shear stress to be looked at if the case wants one.
+/// An updated Lagrangian formulation.
 fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
     match formulation {
         Formulation::UlNested => UpdatedForm::Nested,

@@ -6,6 +6,9 @@ use output::summary::Settled;
 use output::{OutputError, ProbeTable, ResultDir};
 use taut::simulation::{Balance, Increment};
 
+/// The name of the table.
+const NAME: &str = "convergence";
+
 /// The increments so far, and their table.
 pub struct Convergence {
     table: ProbeTable,
@@ -21,7 +24,7 @@ impl Convergence {
     pub fn create(results: &ResultDir) -> Result<Self, RunError> {
         let columns =
             [("increment", "1"), ("steps", "1"), ("force", "1"), ("motion", "1"), ("converged", "1")];
-        let table = ProbeTable::beside_summary(results, "convergence", &columns)?;
+        let table = ProbeTable::beside_summary(results, NAME, &columns)?;
         Ok(Self { table, increments: Vec::new(), failed: None })
     }
 
@@ -30,6 +33,11 @@ impl Convergence {
     /// # Errors
     /// If it cannot be made.
     pub fn again(results: &ResultDir, saved: &[f64]) -> Result<Self, RunError> {
+        // What it held is in the numbers; what came after the checkpoint is dropped.
+        let path = results.path().join(format!("{NAME}.csv"));
+        if path.exists() {
+            std::fs::remove_file(&path).map_err(|cause| OutputError::Write { path, cause })?;
+        }
         let mut new = Self::create(results)?;
         for &[number, time, steps, force, motion, converged] in saved.as_chunks::<6>().0 {
             let (number, steps) = (number as u32, steps as u64);

@@ -17,6 +17,8 @@ const STEPS: u32 = 3000;
 const BLOWN: f64 = 1e3;
 /// The bisection ends with this share of the step.
 const PRECISION: f64 = 1e-3;
+/// A known limit is confirmed so far to both sides.
+const CONFIRMED: f64 = 2e-3;
 
 /// Limits of the step of one body, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,14 +91,21 @@ pub fn times(case: &Case, factor: f64) -> Case {
     case
 }
 
-/// The limit found by running the case, s: from a step that is stable and one that is not, by bisection.
+/// The limit found by running the case, s: from a step that is stable and one that is not, by bisection; or that of a similar case, if a step of two
+/// thousandths less is stable and one of two thousandths more is not.
 ///
 /// # Errors
 /// If the case cannot be built or started, or no step of up to four times `guess` (s) is unstable.
-pub fn marched(case: &Case, guess: f64) -> Result<Option<f64>, RunError> {
+pub fn marched(case: &Case, guess: f64, known: Option<f64>) -> Result<Option<f64>, RunError> {
     let case = still(case);
     let moved = trial(&case, 0.5 * guess, f64::INFINITY)?;
     let stable = |dt: f64| Ok::<bool, RunError>(trial(&case, dt, BLOWN * moved)? < BLOWN * moved);
+    if let Some(dt) = known
+        && stable((1.0 - CONFIRMED) * dt)?
+        && !stable((1.0 + CONFIRMED) * dt)?
+    {
+        return Ok(known);
+    }
     let (mut low, mut high) = (0.5 * guess, guess * 1.02);
     while stable(high)? {
         low = high;

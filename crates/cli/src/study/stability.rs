@@ -28,7 +28,7 @@ pub fn stability(options: &StudyOptions) -> Result<(), Failure> {
 fn limits(case: &Case, options: &StudyOptions) -> Result<(), Failure> {
     let rows = computed(case).map_err(failed)?;
     let guess = rows.iter().filter_map(|(_, limits)| limits.operator).fold(f64::INFINITY, f64::min);
-    let found = if guess.is_finite() { marched(case, guess).map_err(failed)? } else { None };
+    let found = if guess.is_finite() { marched(case, guess, None).map_err(failed)? } else { None };
     say!("{}: {}", case.name, case.title);
     say!("{}", table(&rows, found).trim_end());
     if !case.bodies.iter().all(small) {
@@ -74,11 +74,14 @@ fn loads(case: &Case, guess: f64, results: &ResultDir) -> Result<(), Failure> {
     for (name, normalisation) in
         [("normalised", Normalisation::Adjoint), ("not normalised", Normalisation::None)]
     {
-        let values = LOADS.iter().map(|&factor| {
+        let mut known = None;
+        let mut values = Vec::new();
+        for factor in LOADS {
             let case = case::study::stability::times(&with(case, normalisation), factor);
-            Ok(marched(&case, guess).map_err(failed)?.unwrap_or(f64::NAN))
-        });
-        columns.push(column(name, "s", values.collect::<Result<_, Failure>>()?));
+            known = marched(&case, guess, known).map_err(failed)?;
+            values.push(known.unwrap_or(f64::NAN));
+        }
+        columns.push(column(name, "s", values));
     }
     let table = Table { times: LOADS.to_vec(), columns };
     let title = format!("{}: critical step under loads", case.title);

@@ -241,8 +241,8 @@ mod tests {
             let frame = |step| Frame { time: 0.0, step, points: vec![[1.0, 1.0, z]; 1000], arrays: vec![] };
             let mut encoder = Encoder::default();
             let sizes = [0, apart - 1, 2 * apart - 1].map(|step| encoder.encode(&frame(step)).unwrap().len());
-            // 24 bytes a position; equal ones compress to next to nothing.
-            assert!(sizes[1] > sizes[0] + 20_000 && sizes[2] < sizes[0] + 1000, "{sizes:?}");
+            // 24 bytes a position; equal ones compress to less than nine.
+            assert!(sizes[1] > sizes[0] + 15_000 && sizes[2] < sizes[0] + 1000, "{sizes:?}");
             // The head holds the number of the step.
             assert_eq!(Rehearsal::default().size(&frame(apart - 1), apart - 1).unwrap(), sizes[1]);
         }

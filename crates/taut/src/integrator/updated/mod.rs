@@ -1,5 +1,9 @@
 //! Position Verlet with dual-criteria time stepping for updated Lagrangian bodies (UL section 5).
 
+mod options;
+
+pub use options::{Stepping, UpdatedOptions};
+
 use super::diverged::{Check, culprit, not_finite};
 use super::limits::largest;
 use super::outside::{self, Midway};
@@ -9,45 +13,12 @@ use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver}
 use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
 use crate::formulation::{Formulation, State};
-use crate::kernel::Kernel;
 use crate::math::Vector;
 use crate::neighbours::storage_order;
 use crate::particles::saved::{Part, RestoreError, Shelf, Values};
 use crate::pass::Now;
 use crate::run::{self, Among, Relist, Run};
 use rayon::prelude::*;
-
-/// When the configuration (neighbours, kernel, volumes) is made anew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stepping {
-    /// Every advection step, CFL_ad h / |v|max (UL Eq. 21); many acoustic steps share one configuration.
-    Dual,
-    /// Every acoustic step.
-    Single,
-}
-
-/// Settings of the integrator.
-#[derive(Clone, Copy, Debug)]
-pub struct UpdatedOptions {
-    /// The kernel.
-    pub kernel: Kernel,
-    /// Acoustic Courant number; 0.4 in the paper.
-    pub cfl: f64,
-    /// Advection Courant number; 0.2 in the paper.
-    pub advection_cfl: f64,
-    /// When the configuration is made anew.
-    pub stepping: Stepping,
-    /// How far ahead of the present a configuration of dual stepping is made, as a share of the time that it lasts: 0 in the paper. 1/2 puts it into
-    /// the middle, so that what directions lag behind in its second half they are ahead in its first.
-    pub ahead: f64,
-    /// Least speed of the advection criterion, m/s: Eq. (21) has no limit for a body at rest.
-    pub reference_speed: f64,
-    /// Largest sqrt(K/rho0) of the materials, m/s.
-    pub bulk_speed: f64,
-    /// Largest c_M = sqrt((K + 3 zeta G / (d + 2)) / rho0) of the materials, m/s: the speed that the shear Laplacian of
-    /// the non-hourglass form makes of the longitudinal wave. 0 where it does not apply.
-    pub shear_speed: f64,
-}
 
 /// Updated Lagrangian bodies in time.
 #[derive(Debug)]
