@@ -75,7 +75,7 @@ const ROWS: &[Row] = &[
         "ul-non-hourglas",
         &["unknown formulation", "did you mean `ul-non-hourglass`?"],
     ),
-    (RINGS, "ul-non-hourglass", "ul-generalised", &["`ul-generalised` is planned, but not in this version"]),
+    (RINGS, "ul-non-hourglass", "ul-generalized", &["unknown formulation", "did you mean `ul-generalised`?"]),
     (RINGS, "\"dual\"", "\"duel\"", &["unknown stepping `duel`", "did you mean `dual`?"]),
     (
         PLATE,

@@ -32,6 +32,11 @@ pub enum Command {
         #[arg(default_value = "my-case")]
         name: String,
     },
+    /// Tell what is in a file of triangles (STL, OBJ), and whether it is a body: in the file's own unit of length
+    Mesh {
+        /// The file
+        file: PathBuf,
+    },
     /// Print the JSON schema of case files, for editors that complete and explain
     Schema {
         /// The manual's page of all keys instead

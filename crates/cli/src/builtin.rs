@@ -21,11 +21,15 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-flag", include_str!("../../../cases/tl-flag.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
+    ("ul-plate-3d", include_str!("../../../cases/ul-plate-3d.toml")),
     ("lk-rectangle", include_str!("../../../cases/lk-rectangle.toml")),
     ("lk-annulus", include_str!("../../../cases/lk-annulus.toml")),
     ("lk-stability", include_str!("../../../cases/lk-stability.toml")),
     ("lk-collision", include_str!("../../../cases/lk-collision.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
+    ("ul-hollow-balls", include_str!("../../../cases/ul-hollow-balls.toml")),
+    ("ul-ball-plate-2d", include_str!("../../../cases/ul-ball-plate-2d.toml")),
+    ("ul-ball-plate-3d", include_str!("../../../cases/ul-ball-plate-3d.toml")),
 ];
 
 /// Reference curves of the built-in cases, by their paths.
@@ -45,8 +49,7 @@ const CURVES: &[(&str, &str)] = &[
 ];
 
 /// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] =
-    &["tl-stent", "ul-plate-3d", "ul-hollow-balls", "ul-ball-plate-2d", "ul-ball-plate-3d"];
+const LATER: &[&str] = &["tl-stent"];
 
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {

@@ -12,6 +12,7 @@ mod check;
 mod explain;
 mod list;
 pub mod memory;
+mod mesh;
 mod new;
 mod pictures;
 mod progress;
@@ -58,6 +59,7 @@ where
         Command::Check(options) => check::check(&options),
         Command::Explain(options) => explain::explain(&options),
         Command::New { name } => new::new(&name),
+        Command::Mesh { file } => mesh::mesh(&file),
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),

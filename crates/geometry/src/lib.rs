@@ -20,6 +20,7 @@
 mod bounds;
 mod distance;
 mod fill;
+mod mesh;
 mod point;
 mod polygon;
 mod problem;
@@ -28,6 +29,9 @@ mod validate;
 
 pub use bounds::Bounds;
 pub use fill::{Fill, FillError, MAX_PARTICLES, Points, fill, reckon};
+pub use mesh::{
+    Crossings, Hole, MAX_COMPONENTS, MAX_TRIANGLES, Mended, Mesh, MeshError, MeshFormat, MeshReport, Thin,
+};
 pub use point::{Dimension, Point};
 pub use problem::{ShapeError, ShapeProblem};
 pub use shape::Shape;

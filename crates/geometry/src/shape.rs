@@ -1,6 +1,7 @@
 //! The shapes, and what can be asked of them.
 
 use crate::bounds::Bounds;
+use crate::mesh::Mesh;
 use crate::point::{Point, Turn, add, stretch, sub};
 use crate::{distance, polygon};
 
@@ -46,6 +47,8 @@ pub enum Shape {
         /// Lowest and highest z of the prism: needed in 3D, absent in 2D.
         height: Option<[f64; 2]>,
     },
+    /// What a surface of triangles encloses. Only in 3D.
+    Mesh(Mesh),
     /// What lies in any of the shapes.
     Union(Vec<Shape>),
     /// What lies in all of the shapes.
@@ -84,7 +87,7 @@ pub enum Shape {
 impl Shape {
     /// The signed distance from `x` to the boundary, in metres, negative inside.
     ///
-    /// Exact for boxes, balls, rings, cylinders and polygons, moved, turned and magnified as they may be. For
+    /// Exact for boxes, balls, rings, cylinders, polygons and meshes (see [`Mesh::distance`]), moved, turned and magnified as they may be. For
     /// unions, intersections and differences the magnitude is the true distance or less: a ball of that
     /// radius around `x` does not cross the boundary. Where surfaces of the combined shapes coincide, as
     /// where two boxes or two cuts are joined at a face, it is 0 also off the boundary.
@@ -97,6 +100,7 @@ impl Shape {
             }
             Self::Cylinder { from, to, radius } => distance::cylinder([*from, *to], *radius, x),
             Self::Polygon { points, height } => distance::prism(points, *height, x),
+            Self::Mesh(mesh) => mesh.distance(x),
             Self::Union(shapes) => nearest(shapes, x),
             Self::Intersection(shapes) => {
                 shapes.iter().map(|s| s.distance(x)).fold(f64::NEG_INFINITY, f64::max)
@@ -124,6 +128,7 @@ impl Shape {
             Self::Ring { center, outer, .. } => Bounds { min: *center, max: *center }.grown(*outer),
             Self::Cylinder { from, to, radius } => distance::cylinder_bounds([*from, *to], *radius),
             Self::Polygon { points, height } => polygon::bounds(points, height.unwrap_or([0.0; 2])),
+            Self::Mesh(mesh) => mesh.bounds(),
             Self::Union(shapes) => shapes.iter().fold(Bounds::around([]), |b, s| b.join(&s.bounds())),
             Self::Intersection(shapes) => {
                 shapes.iter().map(Shape::bounds).reduce(|a, b| a.meet(&b)).unwrap_or(Bounds::around([]))
@@ -145,6 +150,7 @@ impl Shape {
             Self::Ring { .. } => "ring",
             Self::Cylinder { .. } => "cylinder",
             Self::Polygon { .. } => "polygon",
+            Self::Mesh(_) => "mesh",
             Self::Union(_) => "union",
             Self::Intersection(_) => "intersection",
             Self::Difference(..) => "difference",

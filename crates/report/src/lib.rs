@@ -6,7 +6,9 @@
 
 mod animation;
 mod audit;
+mod axis;
 mod colours;
+mod corner;
 mod error;
 mod field;
 mod image;

@@ -1,6 +1,5 @@
 //! A probe table as a chart.
 
-use std::ops::Range;
 use std::path::Path;
 
 use output::{Column, Reference, Table};
@@ -9,7 +8,8 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::ReportError;
-use crate::scale::Scale;
+use crate::axis::{Axis, drawable};
+use crate::corner;
 
 const SIZE: (u32, u32) = (960, 540);
 
@@ -98,7 +98,7 @@ fn curves<'a>(
     let own = Curve { label, colour, dashed: false, parts: parts(&table.times, &column.values) };
     let end = table.times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let others = reference.into_iter().flat_map(move |reference| {
-        reference.curves(&column.name).map(move |curve| {
+        reference.curves(&column.name).enumerate().map(move |(n, curve)| {
             let seen = reference
                 .table
                 .times
@@ -108,7 +108,11 @@ fn curves<'a>(
             let values = &curve.values[..seen.min(curve.values.len())];
             Curve {
                 label: format!("{}, reference", curve.name),
-                colour: RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                // The first belongs to its column by its colour, the others have their own.
+                colour: match n {
+                    0 => RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                    n => LINES[(index + table.columns.len() + n - 1) % LINES.len()],
+                },
                 dashed: true,
                 parts: parts(&reference.table.times[..values.len()], values),
             }
@@ -170,7 +174,7 @@ fn chart(
     if curves.len() > 1 {
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(corner::emptiest(all().map(|&(x, y)| (time.part(x), value.part(y)))))
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 16))
@@ -236,46 +240,6 @@ fn value_axis(columns: &[Column], values: impl Iterator<Item = f64>) -> Axis {
     Axis::new(name, unit, values)
 }
 
-/// One axis: its name with the unit, its range in that unit.
-struct Axis {
-    name: String,
-    scale: Scale,
-    range: Range<f64>,
-}
-
-impl Axis {
-    /// Holds all `values` that can be drawn, with some air; never empty.
-    fn new(name: &str, unit: &str, values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = values
-            .filter(|value| drawable(*value))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
-        let scale = Scale::new(low.abs().max(high.abs()), unit);
-        let (low, high) = (low / scale.divisor, high / scale.divisor);
-        // Values that differ by rounding only count as constant, and still get an axis with a height.
-        let constant = high - low <= 1e-12 * low.abs().max(high.abs());
-        let air = if constant { 0.1 * high.abs().max(f64::MIN_POSITIVE.sqrt()) } else { 0.04 * (high - low) };
-        let air = if constant && high == 0.0 { 1.0 } else { air };
-        Self { name: format!("{name}{}", scale.brackets()), scale, range: low - air..high + air }
-    }
-
-    /// `value` in the unit of the axis.
-    fn shown(&self, value: f64) -> f64 {
-        value / self.scale.divisor
-    }
-
-    /// The number at a tick, `shown` being in the unit of the axis.
-    fn label(&self, shown: f64) -> String {
-        let step = (self.range.end - self.range.start) / 10.0;
-        Scale { divisor: 1.0, unit: String::new() }.label(shown, 5.0 * step)
-    }
-}
-
-/// Numbers whose differences do not overflow.
-fn drawable(value: f64) -> bool {
-    value.abs() < 1e300
-}
-
 /// The samples cut at values that cannot be drawn, each part thinned.
 fn parts(times: &[f64], values: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let samples: Vec<(f64, f64)> = times.iter().copied().zip(values.iter().copied()).collect();
@@ -326,16 +290,6 @@ mod tests {
         let times = [0.0, 1.0, 2.0, 3.0, 4.0];
         let found = parts(&times, &[1.0, f64::NAN, 2.0, 3.0, f64::INFINITY]);
         assert_eq!(found, [vec![(0.0, 1.0)], vec![(2.0, 2.0), (3.0, 3.0)]]);
-    }
-
-    #[test]
-    fn axes_always_have_a_length() {
-        for values in [vec![], vec![0.0], vec![5e-7; 3], vec![-3e12], vec![1.0, 1.0 + 1e-15], vec![f64::NAN]]
-        {
-            let axis = Axis::new("y", "m", values.iter().copied());
-            assert!(axis.range.end > axis.range.start, "{values:?}: {:?}", axis.range);
-            assert!(axis.range.end.is_finite() && axis.range.start.is_finite());
-        }
     }
 
     #[test]

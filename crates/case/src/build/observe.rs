@@ -2,7 +2,7 @@
 
 use super::bodies::{Group, checked, padded, vector};
 use super::gap::Gap;
-use crate::{Case, CaseError, Quantity, Spot};
+use crate::{Case, CaseError, Fill, Quantity, Spot};
 use geometry::Shape;
 use taut::diagnostics::MaterialPoint;
 use taut::diagnostics::disorder::{Disorder, DisorderError, Reference};
@@ -214,6 +214,19 @@ impl<const D: usize> Watch for Arrangement<D> {
     }
 }
 
+/// The spacing of the particles of each body, m: that of the case, or, in rings of as many particles each, that of a lattice with as many.
+fn spacings<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<f64> {
+    let mean = |index: usize| {
+        let mine = || groups.iter().flat_map(|g| &g.points).filter(move |p| p.body as usize == index);
+        (mine().map(|p| p.volume).sum::<f64>() / mine().count().max(1) as f64).powf(1.0 / D as f64)
+    };
+    let own = |(index, body): (usize, &crate::Body)| match body.fill {
+        Fill::Polar { .. } => mean(index),
+        _ => case.spacing,
+    };
+    case.bodies.iter().enumerate().map(own).collect()
+}
+
 /// The measure of disorder of all deformable bodies, and the body of each particle.
 pub fn disorder<const D: usize>(
     case: &Case,
@@ -222,7 +235,8 @@ pub fn disorder<const D: usize>(
     let points = || groups.iter().flat_map(|g| &g.points);
     let columns: [Vec<f64>; D] = std::array::from_fn(|i| points().map(|p| p.x[i]).collect());
     let mut body: Vec<u32> = points().map(|p| p.body).collect();
-    let spacing = vec![case.spacing; body.len()];
+    let own = spacings(case, groups);
+    let spacing: Vec<f64> = body.iter().map(|&body| own[body as usize]).collect();
     let support = 2.0 * case.bodies.iter().map(|b| b.scheme.smoothing).fold(0.0, f64::max) * case.spacing;
     let x: [&[f64]; D] = std::array::from_fn(|i| columns[i].as_slice());
     let reference = Reference::new(x, &body, &spacing, support)

@@ -11,8 +11,8 @@ use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
 use taut::material::{self, LinearElastic, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
 use taut::simulation::{
-    self, EdgeForm, InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, small_strain_body,
-    total_body, updated_bodies,
+    self, EdgeForm, InSpace, Law, Numbers, Point, Solver, TotalForm, TotalModel, UpdatedForm,
+    small_strain_body, total_body, updated_bodies,
 };
 
 /// The plane as the material sees it.
@@ -65,7 +65,7 @@ where
     let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
     let points = Point::points(&group.points);
     match scheme.march {
-        March::Total { step, calibration, alpha } => {
+        March::Total { step, calibration, alpha, kelvin_voigt } => {
             let options = TotalOptions {
                 kernel,
                 cfl: scheme.cfl,
@@ -74,14 +74,8 @@ where
             };
             let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
-            total_body(points, (form, law), options, numbers).ok_or_else(|| {
-                let message = format!(
-                    "the material `{}` does not go with {}",
-                    body.material,
-                    scheme.formulation.name()
-                );
-                case.error_at(body.place, message, None)
-            })
+            let model = TotalModel { form, law, kelvin_voigt };
+            total_body(points, model, options, numbers).ok_or_else(|| unfit(case, body))
         }
         March::Small { normalisation, dt } => {
             let options = TotalOptions {
@@ -103,18 +97,36 @@ where
                     Stepping::Dual => integrator::Stepping::Dual,
                     Stepping::Single => integrator::Stepping::Single,
                 },
+                ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
-            let form = match scheme.formulation {
-                Formulation::UlNested => UpdatedForm::Nested,
-                _ => UpdatedForm::NonHourglass,
-            };
+            let form = updated_form(case, scheme.formulation);
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
         }
+    }
+}
+
+/// A material that a formulation cannot carry.
+fn unfit(case: &Case, body: &Body) -> CaseError {
+    let formulation = body.scheme.formulation.name();
+    let message = format!("the material `{}` does not go with {formulation}", body.material);
+    case.error_at(body.place, message, None)
+}
+
+/// An updated Lagrangian formulation.
+fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
+    match formulation {
+        Formulation::UlNested => UpdatedForm::Nested,
+        Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+        Formulation::UlLaplacian => UpdatedForm::Laplacian,
+        Formulation::UlGeneralised => UpdatedForm::Generalised,
+        Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+        _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
+        _ => UpdatedForm::NonHourglass,
     }
 }
 

@@ -22,6 +22,14 @@ pub enum Formulation {
     UlNonHourglass,
     /// Updated Lagrangian, stress from the velocity gradient (the plain nested form).
     UlNested,
+    /// Updated Lagrangian, the nested form with artificial stress.
+    UlArtificialStress,
+    /// Updated Lagrangian, shear forces from the plain Laplacian of velocity.
+    UlLaplacian,
+    /// Updated Lagrangian, the nested form with an accumulated control of hourglass modes.
+    UlGeneralised,
+    /// Updated Lagrangian, `UlNonHourglass` with a limited Riemann solver.
+    UlLowDissipation,
 }
 
 /// What the neighbours of a body refer to.
@@ -65,13 +73,30 @@ impl Words for Formulation {
             Self::UlNested,
             "updated Lagrangian, the plain nested form, which hourglasses; material linear-elastic",
         ),
+        (
+            "ul-generalised",
+            Self::UlGeneralised,
+            "updated Lagrangian, free of hourglass modes, objective, with exact moduli; dearer than ul-non-hourglass; material linear-elastic",
+        ),
+        (
+            "ul-artificial-stress",
+            Self::UlArtificialStress,
+            "updated Lagrangian, the nested form with artificial stress (Gray et al. 2001), which hourglasses too; material linear-elastic",
+        ),
+        (
+            "ul-laplacian",
+            Self::UlLaplacian,
+            "updated Lagrangian, shear forces by the plain Laplacian of velocity, which resists rotation; for comparison only; material linear-elastic",
+        ),
+        (
+            "ul-low-dissipation",
+            Self::UlLowDissipation,
+            "updated Lagrangian, ul-non-hourglass with the limited Riemann solver that its paper names, which makes plates soft; for comparison only; material linear-elastic",
+        ),
     ];
 }
 
 impl Formulation {
-    /// Names that are reserved for what is not there yet.
-    pub(crate) const LATER: &'static [&'static str] = &["ul-artificial-stress", "ul-generalised"];
-
     /// The name in case files and on the command line.
     pub fn name(self) -> &'static str {
         word(self)
@@ -83,7 +108,12 @@ impl Formulation {
             Self::TlHourglassFree | Self::TlNested | Self::TlGanzenmueller | Self::SmallStrain => {
                 Family::Total
             }
-            Self::UlNonHourglass | Self::UlNested => Family::Updated,
+            Self::UlNonHourglass
+            | Self::UlNested
+            | Self::UlArtificialStress
+            | Self::UlLaplacian
+            | Self::UlGeneralised
+            | Self::UlLowDissipation => Family::Updated,
         }
     }
 }

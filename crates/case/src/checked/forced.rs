@@ -50,6 +50,7 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
             if let Some(Value::Table(time)) = root.get_mut("time").map(|node| &mut node.value) {
                 time.remove("step");
             }
+            root.remove("kelvin_voigt");
         }
         None => {}
     }

@@ -49,7 +49,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     top.only(keys::TABLE.keys, problems);
     let Head { name, title, dimension, plane, kernel } = head(&top, problems)?;
     let before = problems.0.len();
-    let scope = Scope { folder: sources.folder(), ..parameters::read(root, dimension, problems) };
+    let scope = Scope { files: sources.files(), ..parameters::read(root, dimension, problems) };
     if problems.0.len() > before {
         return None;
     }
@@ -69,8 +69,9 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         formulation: parts.formulation,
         spacing: spacing?,
         kernel,
+        shear_stress: parts.shear_stress,
         parameters: scope.parameters,
-        warnings: parts.warnings(root, plane),
+        warnings: [scope.meshes.doubts(), parts.warnings(root, plane)].concat(),
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,
@@ -86,6 +87,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         monitor,
         probes: parts.probes,
         measures: parts.measures,
+        meshes: scope.meshes.all(),
+        files: scope.files.used(),
         sources: Arc::clone(sources),
         as_run,
     })

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::choices::{Calibration, Family, Formulation, Normalisation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
+use super::time::flag;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
 use crate::keys::{Words, case, time};
 use crate::source::Place;
@@ -33,6 +34,8 @@ pub enum March {
         calibration: Calibration,
         /// Strength of Ganzenmueller's hourglass control.
         alpha: f64,
+        /// Factor of the Kelvin-Voigt damping.
+        kelvin_voigt: f64,
     },
     /// Small strain.
     Small {
@@ -64,6 +67,8 @@ pub(crate) struct Schemes {
     reference_speed: Option<(f64, Place)>,
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
+    kelvin_voigt: Option<(f64, Place)>,
+    shear_stress: Option<(bool, Place)>,
     normalisation: Option<(Normalisation, Place)>,
     dt: Option<(f64, Place)>,
 }
@@ -97,11 +102,22 @@ impl Schemes {
                 choice(n, case::CALIBRATION.name, Calibration::WORDS)
             }),
             alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
+            kelvin_voigt: optional(root.get(case::KELVIN_VOIGT.name), problems, |n| {
+                scope.of(n, &case::KELVIN_VOIGT)
+            }),
+            shear_stress: optional(root.get(case::SHEAR_STRESS.name), problems, |n| {
+                flag(n, &case::SHEAR_STRESS)
+            }),
             normalisation: optional(root.get(case::NORMALISATION.name), problems, |n| {
                 choice(n, case::NORMALISATION.name, Normalisation::WORDS)
             }),
             dt: optional(of_time(time::DT.name), problems, |n| scope.of(n, &time::DT)),
         }
+    }
+
+    /// Whether a shear stress is integrated that is only to be looked at.
+    pub(crate) fn shear_stress(&self) -> bool {
+        self.shear_stress.is_none_or(|(wanted, _)| wanted)
     }
 
     /// The scheme of a body with its own formulation (or none).
@@ -116,6 +132,7 @@ impl Schemes {
                 step: self.step.map_or(defaults::STEP, |(step, _)| step),
                 calibration: self.calibration.map_or(defaults::CALIBRATION, |(calibration, _)| calibration),
                 alpha: self.alpha.map_or(defaults::ALPHA, |(alpha, _)| alpha),
+                kelvin_voigt: self.kelvin_voigt.map_or(defaults::KELVIN_VOIGT, |(factor, _)| factor),
             },
             Family::Updated => March::Updated {
                 stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
@@ -134,6 +151,7 @@ impl Schemes {
     pub(crate) fn refuse_useless(&self, bodies: &[Body], problems: &mut Problems) {
         let used = |family| bodies.iter().any(|body| body.scheme.formulation.family() == family);
         let one_only = [
+            ("shear_stress", self.shear_stress.map(|(_, place)| place), Formulation::UlNonHourglass),
             ("alpha", self.alpha.map(|(_, place)| place), Formulation::TlGanzenmueller),
             ("calibration", self.calibration.map(|(_, place)| place), Formulation::TlHourglassFree),
             ("normalisation", self.normalisation.map(|(_, place)| place), Formulation::SmallStrain),
@@ -155,8 +173,14 @@ impl Schemes {
             }
         }
         let steps = |body: &Body| matches!(body.scheme.march, March::Total { .. });
-        if let Some((_, place)) = self.step.filter(|_| !bodies.iter().any(steps)) {
-            problems.0.push(useless("step", "total Lagrangian formulations (tl-*)", place));
+        let total_only = [
+            ("step", self.step.map(|(_, place)| place)),
+            ("kelvin_voigt", self.kelvin_voigt.map(|(_, place)| place)),
+        ];
+        for (key, place) in total_only {
+            if let Some(place) = place.filter(|_| !bodies.iter().any(steps)) {
+                problems.0.push(useless(key, "total Lagrangian formulations (tl-*)", place));
+            }
         }
     }
 }
@@ -180,13 +204,5 @@ pub(crate) fn read_formulation(node: &Node) -> Result<Formulation, Diagnostic> {
         return Ok(*formulation);
     }
     let names = Formulation::WORDS.iter().map(|(n, ..)| *n);
-    if Formulation::LATER.contains(&name) {
-        let names: Vec<&str> = names.collect();
-        return Err(Diagnostic::at(
-            place,
-            format!("the formulation `{name}` is planned, but not in this version"),
-        )
-        .help(format!("there are {}", names.join(", "))));
-    }
     Err(Diagnostic::at(place, format!("unknown formulation `{name}`")).help(did_you_mean(name, names)))
 }

@@ -175,6 +175,7 @@ fn shape(spec: &ShapeSpec) -> String {
         ShapeSpec::Ring { inner, .. } => format!("a ring (inner radius {})", length(*inner)),
         ShapeSpec::Cylinder { .. } => "a cylinder".into(),
         ShapeSpec::Polygon { points, .. } => format!("a polygon of {} corners", points.len()),
+        ShapeSpec::Mesh { file, mesh } => format!("the mesh {file} of {} triangles", mesh.faces().len()),
         ShapeSpec::Union(parts) => format!("the union of {}", shapes(parts)),
         ShapeSpec::Intersection(parts) => format!("what is common to {}", shapes(parts)),
         ShapeSpec::Difference(parts) => match parts.split_first() {
@@ -254,6 +255,14 @@ fn times(case: &Case) -> Vec<String> {
         March::Updated { stepping, .. } => Some(stepping),
         March::Total { .. } | March::Small { .. } => None,
     });
+    let damper = case.bodies.iter().find_map(|body| match body.scheme.march {
+        March::Total { kelvin_voigt, .. } if kelvin_voigt != 1.0 => Some(kelvin_voigt),
+        _ => None,
+    });
+    lines.extend(damper.map(|factor| match factor {
+        0.0 => "no Kelvin-Voigt damping".into(),
+        _ => format!("{factor} times the Kelvin-Voigt damping of the paper"),
+    }));
     match updated {
         Some(Stepping::Dual) => {
             lines.push("neighbours are renewed once in several steps (dual stepping)".into());

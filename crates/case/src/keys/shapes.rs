@@ -2,7 +2,8 @@
 
 /// Shapes: a table with one key, the kind of the shape.
 pub(crate) mod shape {
-    use super::super::{Key, Kind, Need, Range};
+    use super::super::{Key, Kind, Need, Range, Words};
+    use crate::checked::MeshUnit;
     use crate::units::Dimension;
 
     const LENGTH: Kind = Kind::Number(Dimension::LENGTH, Range::Positive);
@@ -28,6 +29,16 @@ pub(crate) mod shape {
         Kind::Pair(Dimension::LENGTH),
         Need::Optional,
         "Lowest and highest z of the prism: required in 3D, refused in 2D.",
+    );
+    pub(crate) const FILE: Key = required(
+        "file",
+        Kind::Text,
+        "The file, STL or OBJ; its path is relative to the case file. `taut mesh FILE` tells what is in it.",
+    );
+    pub(crate) const UNIT: Key = required(
+        "unit",
+        Kind::Choice(<MeshUnit as Words>::choices),
+        "The unit of its coordinates, which files do not say.",
     );
     pub(crate) const BY: Key = required("by", POINT, "How far.");
     pub(crate) const ANGLE: Key = required(
@@ -55,6 +66,7 @@ pub(crate) mod shape {
         ("hollow-ball", "The same in 3D, by its own name.", &[CENTER, INNER, OUTER]),
         ("cylinder", "3D: a straight cylinder with flat ends.", &[FROM, TO, RADIUS]),
         ("polygon", "A closed polygon in x and y; in 3D the prism above it.", &[POINTS, HEIGHT]),
+        ("mesh", "3D: what the triangles of a file enclose.", &[FILE, UNIT]),
         ("union", "Points in any of the shapes of a list.", &[]),
         ("intersection", "Points in all of the shapes of a list.", &[]),
         ("difference", "Points in the first shape of a list and in none of the others.", &[]),

@@ -59,9 +59,6 @@ impl Books<'_> {
         let checkpoint = match self.writer.kept.take() {
             Some(Ok(path)) => Ok(path),
             Some(Err(error)) => Err(format!("{error}\nhint: {}", error.hint())),
-            None if self.case.quasi_static.is_some() => {
-                Err("quasi-static runs cannot go on from one".to_string())
-            }
             None => Err("it had not begun".to_string()),
         };
         let (time, step) = (self.simulation.time(), self.simulation.steps());

@@ -4,7 +4,10 @@ use super::error::RunError;
 use crate::Case;
 use output::summary::Settled;
 use output::{OutputError, ProbeTable, ResultDir};
-use taut::simulation::Increment;
+use taut::simulation::{Balance, Increment};
+
+/// The name of the table.
+const NAME: &str = "convergence";
 
 /// The increments so far, and their table.
 pub struct Convergence {
@@ -21,8 +24,36 @@ impl Convergence {
     pub fn create(results: &ResultDir) -> Result<Self, RunError> {
         let columns =
             [("increment", "1"), ("steps", "1"), ("force", "1"), ("motion", "1"), ("converged", "1")];
-        let table = ProbeTable::beside_summary(results, "convergence", &columns)?;
+        let table = ProbeTable::beside_summary(results, NAME, &columns)?;
         Ok(Self { table, increments: Vec::new(), failed: None })
+    }
+
+    /// As it was when [`Convergence::saved`] gave these numbers; the table is written anew.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn again(results: &ResultDir, saved: &[f64]) -> Result<Self, RunError> {
+        // What it held is in the numbers; what came after the checkpoint is dropped.
+        let path = results.path().join(format!("{NAME}.csv"));
+        if path.exists() {
+            std::fs::remove_file(&path).map_err(|cause| OutputError::Write { path, cause })?;
+        }
+        let mut new = Self::create(results)?;
+        for &[number, time, steps, force, motion, converged] in saved.as_chunks::<6>().0 {
+            let (number, steps) = (number as u32, steps as u64);
+            let balance = Balance { force, motion };
+            new.push(Increment { number, time, steps, balance, converged: converged != 0.0 });
+        }
+        Ok(new)
+    }
+
+    /// The increments so far, as numbers.
+    pub fn saved(&self) -> Vec<f64> {
+        let one = |i: &Increment| {
+            let converged = f64::from(u8::from(i.converged));
+            [f64::from(i.number), i.time, i.steps as f64, i.balance.force, i.balance.motion, converged]
+        };
+        self.increments.iter().flat_map(one).collect()
     }
 
     /// Notes an increment. What cannot be written is told at the end of the run.

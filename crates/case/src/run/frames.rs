@@ -10,6 +10,8 @@ use taut::simulation::Snapshot;
 #[derive(Debug)]
 pub struct Framer {
     spacing: f64,
+    /// Whether there is a shear stress to be seen.
+    sheared: bool,
     /// Whether there is a body with small strains.
     strain: bool,
     lasting: Lasting,
@@ -27,7 +29,12 @@ impl Framer {
     /// For the particles of a case.
     pub fn new(case: &Case) -> Self {
         let small = |body: &Body| body.scheme.formulation == Formulation::SmallStrain;
-        Self { spacing: case.spacing, strain: case.bodies.iter().any(small), lasting: Lasting::default() }
+        Self {
+            spacing: case.spacing,
+            sheared: case.shear_stress,
+            strain: case.bodies.iter().any(small),
+            lasting: Lasting::default(),
+        }
     }
 
     /// Makes a frame; `deformation` holds the deformation gradients, row by row.
@@ -57,6 +64,10 @@ impl Framer {
             whole("ParticleId", &self.lasting.id),
             whole("Body", &self.lasting.body),
         ];
+        if !self.sheared {
+            let names = [Quantity::VonMisesStress.name(), Quantity::CauchyStress.name()];
+            arrays.retain(|array| !names.contains(&array.name.as_str()));
+        }
         if self.strain {
             let strain: Vec<[f64; 9]> = deformation.iter().map(small_strain).collect();
             arrays.push(several(Quantity::Strain.name(), Quantity::Strain.unit(), &strain));

@@ -25,9 +25,6 @@ const BENCHMARKS: &[&str] = &[
     "lk-collision",
 ];
 
-/// Formulations of the contract that are not there yet.
-const LATER: &[&str] = &["ul-artificial-stress", "ul-generalised"];
-
 fn here(arguments: &[&str]) -> Ended {
     let folder = tempfile::tempdir().expect("a folder");
     let ended = taut(folder.path(), arguments);
@@ -41,7 +38,9 @@ fn here(arguments: &[&str]) -> Ended {
 #[test]
 fn help_is_as_agreed() {
     let mut text = String::new();
-    for command in ["", "run", "list", "check", "explain", "new", "schema", "validate", "bench", "report"] {
+    for command in
+        ["", "run", "list", "check", "explain", "new", "mesh", "schema", "validate", "bench", "report"]
+    {
         let arguments: Vec<&str> = [command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
         let help = here(&arguments).with(0).stdout;
         text += &format!("$ taut {}\n{help}\n", arguments.join(" "));
@@ -110,16 +109,6 @@ fn benchmarks_are_there_or_come_later() {
         }
         let message = here(&["run", name]).with(2).stderr;
         assert_eq!(message, format!("error: the benchmark {name} comes in a later version.\n"));
-    }
-}
-
-#[test]
-fn what_comes_later_says_so_in_one_sentence() {
-    for name in LATER {
-        let message = here(&["run", "--formulation", name]).with(2).stderr;
-        let sentence = format!("error: the formulation `{name}` is planned, but not in this version");
-        assert!(message.lines().any(|line| line == sentence), "{message}");
-        assert!(message.contains(&format!("--formulation {name}")), "{message}");
     }
 }
 

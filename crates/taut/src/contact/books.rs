@@ -62,6 +62,20 @@ impl Contact {
         met
     }
 
+    /// The forces (N) of the present step on particles that do not move freely, and where they are (m); by solver and id.
+    pub fn on_held(&self) -> impl Iterator<Item = ((usize, u32), [f64; 3], [f64; 3])> + '_ {
+        let mut first = 0;
+        self.facings.owners.iter().filter_map(move |&(a, end)| {
+            let (facings, a) = (std::mem::replace(&mut first, end as usize)..end as usize, a as usize);
+            let held = self.surfaces.lightness[a].0.contains(&0.0);
+            let member = &self.surfaces.members[self.surfaces.body[a] as usize];
+            held.then(|| {
+                let force = facings.fold(Vector::zero(), |sum, i| sum + self.force_on(i));
+                ((member.solver, self.surfaces.ids[a]), self.surfaces.x[a].0, force.0)
+            })
+        })
+    }
+
     /// Notes the work and impulses of penalties in a step of `dt`.
     pub(super) fn note_penalties(&mut self, solvers: &[Box<dyn Solver>], dt: f64) {
         self.ledger.work += self.penalties.passed(solvers, dt, &mut self.ledger.impulse);

@@ -156,6 +156,8 @@ glossary! {
     AxialShearStress: AsScalar, "s_zz", "Pa";
     /// Rate of the shear stress on the third axis.
     AxialShearStressRate: AsScalar, "ds_zz/dt", "Pa/s";
+    /// Artificial stress times rho^2: -eps times the tensile part of the stress (Gray et al. 2001).
+    ArtificialStress: AsTensor, "R", "Pa";
     /// Energy dissipated by viscosity so far.
     Dissipated: AsScalar, "W_d", "J";
     /// Work of the shear forces, or of an hourglass control, so far; positive when stored.

@@ -77,6 +77,18 @@ pub struct Kinetic {
     pub stopped: bool,
 }
 
+impl Kinetic {
+    /// The kinetic energy after the last step, J, and whether it was taken.
+    pub(super) fn saved(&self) -> (f64, bool) {
+        (self.before, self.stopped)
+    }
+
+    /// The other way round.
+    pub(super) fn restored(before: f64, stopped: bool) -> Self {
+        Self { before, stopped }
+    }
+}
+
 impl Damping for Kinetic {
     fn damp(&mut self, solvers: &mut [Box<dyn Solver>], _: Now<f64>, _: u64) -> Impulse {
         let bodies = solvers.iter_mut().filter_map(|solver| solver.relax());

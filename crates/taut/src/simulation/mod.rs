@@ -15,8 +15,8 @@ mod snapshot;
 pub use audit::{Audit, Grip};
 #[cfg(not(test))]
 pub use body::{
-    Calibration, EdgeForm, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, small_strain_body,
-    total_body, updated_bodies,
+    Calibration, EdgeForm, InSpace, Law, Numbers, Points, TotalForm, TotalModel, UpdatedForm,
+    small_strain_body, total_body, updated_bodies,
 };
 pub use damping::{Damping, Kinetic, Splitting, Viscous};
 pub use guard::{COLLAPSE, GAIN, Guard};
@@ -206,6 +206,7 @@ impl Simulation {
         };
         if let Some(contact) = &mut self.contact {
             contact.apply(&mut self.solvers, now)?;
+            self.audit.pressed(contact, now.dt);
         }
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {

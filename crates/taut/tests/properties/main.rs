@@ -19,6 +19,7 @@ mod rest;
 mod rigid;
 mod saved;
 mod small_strain;
+mod spinning;
 mod storage;
 mod threads;
 mod time_step;

@@ -162,6 +162,19 @@ fn spin_makes_no_rates_in_the_non_hourglass_form() {
     }
 }
 
+/// The plain Laplacian (UL Eq. 18) takes differences of velocity across the pair for shear: at a surface, where they do not cancel, a spin makes
+/// shear accelerations of the order of those that a strain rate of the same size would make; inside of a lattice they cancel.
+#[test]
+fn spin_makes_shear_in_the_plain_laplacian() {
+    let (setup, n) = (Setup::new(DP), [12, 11]);
+    let rates = spinning(setup.laplacian(), &block(n, DP));
+    let inside = rates.iter().filter(|p| deep(p.0, n, (DP, 3))).map(|p| p.1[1]);
+    assert!(inside.clone().count() > 20 && inside.clone().all(|r| r < LISTED));
+    let surface = rates.iter().map(|p| p.1[1]).fold(0.0, f64::max);
+    let unit = setup.moduli.shear / (setup.moduli.bulk + setup.moduli.shear);
+    assert!(surface > 0.3 * unit, "{surface} of {unit}");
+}
+
 /// The nested form has no correction, as in its paper: L = w M with the moment matrix M. Density is right anywhere; the
 /// stress rate is that of w M - M w, zero where M is a multiple of 1 (inside a lattice) and not at a surface.
 #[test]

@@ -134,7 +134,7 @@ fn zigzag(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
         Some(Formulation::TlNested) => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::TlHourglassFree)])
         }
-        Some(Formulation::UlNested) => {
+        Some(Formulation::UlNested | Formulation::UlArtificialStress) => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::UlNonHourglass)])
         }
         _ => ("", vec![tries::smaller_cfl(facts.cfl.0, facts.cfl.1)]),
@@ -151,15 +151,21 @@ fn torn(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     if !matches!(e.diverged.cause, Cause::Density | Cause::Lost) || facts.is_total() || facts.at_start {
         return None;
     }
-    let nested = facts.formulation == Some(Formulation::UlNested);
-    let mut tries = if nested { vec![tries::formulation(Formulation::UlNonHourglass)] } else { vec![] };
-    tries.extend(tries::slower(e.case));
-    let how = if nested {
-        "ul-nested is unstable in tension: particles clump and tear even where the material would not."
-    } else {
-        "Particles were pressed together or torn apart."
+    let nested =
+        facts.formulation.filter(|f| matches!(f, Formulation::UlNested | Formulation::UlArtificialStress));
+    let mut tries = match nested {
+        Some(_) => vec![tries::formulation(Formulation::UlNonHourglass)],
+        None => vec![],
     };
-    sign(how.to_string(), tries)
+    tries.extend(tries::slower(e.case));
+    let how = match nested {
+        Some(form) => format!(
+            "{} is unstable in tension: particles clump and tear even where the material would not.",
+            form.name()
+        ),
+        None => "Particles were pressed together or torn apart.".to_string(),
+    };
+    sign(how, tries)
 }
 
 fn faster_than_sound(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {

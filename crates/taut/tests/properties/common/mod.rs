@@ -43,21 +43,57 @@ pub enum Form {
     NonHourglass,
     /// `ul-nested`.
     UpdatedNested,
+    /// `ul-artificial-stress`.
+    ArtificialStress,
+    /// `ul-laplacian`.
+    Laplacian,
+    /// `ul-generalised`.
+    Generalised,
+    /// `ul-low-dissipation`.
+    LowDissipation,
+    /// `ul-non-hourglass` without a shear stress.
+    Unwatched,
 }
 
 /// All of them.
-pub const FORMS: [Form; 6] = [
+pub const FORMS: [Form; 11] = [
     Form::HourglassFree,
     Form::TotalNested,
     Form::Ganzenmueller,
     Form::SmallStrain,
     Form::NonHourglass,
     Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
+
+/// The updated Lagrangian ones.
+pub const UPDATED: [Form; 7] = [
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
 ];
 
 /// Those that know large strains, so that turns are none and too fast is too fast.
-pub const FINITE: [Form; 5] =
-    [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller, Form::NonHourglass, Form::UpdatedNested];
+pub const FINITE: [Form; 10] = [
+    Form::HourglassFree,
+    Form::TotalNested,
+    Form::Ganzenmueller,
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
 
 /// What a body is made of and how it is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +152,7 @@ impl Setup {
             cfl: self.cfl / 1.5,
             advection_cfl: 0.2,
             stepping: self.stepping,
+            ahead: 0.0,
             reference_speed: 0.05 * c0,
             bulk_speed: c0,
             shear_speed: (longitudinal / m.density).sqrt(),
@@ -142,12 +179,34 @@ impl Setup {
         TotalOptions { wave_speed: WaveSpeed::Operator, cfl: 0.8, ..self.total_options(dimension) }
     }
 
-    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass {
+    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass<updated::Hypoelastic> {
         updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
     }
 
     pub fn updated_nested(&self) -> updated::Nested {
         updated::Nested { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    pub fn artificial_stress(&self, dimension: usize) -> updated::ArtificialStress {
+        let stress = updated::Hypoelastic { plane: self.plane };
+        updated::ArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
+    }
+
+    pub fn unwatched(&self, dimension: usize) -> updated::NonHourglass<updated::Unwatched> {
+        updated::NonHourglass::new(updated::Unwatched, dimension)
+    }
+
+    pub fn low_dissipation(&self, dimension: usize) -> updated::LowDissipation {
+        updated::LowDissipation::new(updated::Hypoelastic { plane: self.plane }, dimension)
+    }
+
+    pub fn laplacian(&self) -> updated::Laplacian<updated::Hypoelastic> {
+        updated::Laplacian { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    /// For up to two bodies.
+    pub fn generalised(&self) -> updated::Generalised {
+        updated::Generalised::new(updated::Hypoelastic { plane: self.plane }, 2)
     }
 
     /// A total Lagrangian body.
@@ -197,6 +256,15 @@ impl Setup {
             Form::UpdatedNested => {
                 Box::new(simulation::updated(points, (self.updated_nested(), &all), u, run))
             }
+            Form::ArtificialStress => {
+                Box::new(simulation::updated(points, (self.artificial_stress(D), &all), u, run))
+            }
+            Form::Generalised => Box::new(simulation::updated(points, (self.generalised(), &all), u, run)),
+            Form::LowDissipation => {
+                Box::new(simulation::updated(points, (self.low_dissipation(D), &all), u, run))
+            }
+            Form::Unwatched => Box::new(simulation::updated(points, (self.unwatched(D), &all), u, run)),
+            Form::Laplacian => Box::new(simulation::updated(points, (self.laplacian(), &all), u, run)),
         }
     }
 

@@ -1,111 +1,19 @@
 //! A run that is stopped and goes on leaves what it would have left undisturbed, bit by bit: frames, tables, the numbers of the summary.
 //! Whatever does not belong to it is refused.
 
+mod samples;
+
 use case::run::{
     Checkpoints, Interrupted, Observer, Progress, ResumeError, RunError, Settings, Silent, Stop,
 };
 use case::{Case, Overrides};
 use output::checkpoint::kept;
+use samples::{BLOCK, PULLED, ROUND, text};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use taut::simulation::Numbers;
-
-/// What all cases share: everything that remembers something is in it.
-const COMMON: &str = r#"
-spacing = "1 mm"
-[material.rubber]
-model = "MODEL"
-density = "1.1 g/cm^3"
-youngs_modulus = "17 MPa"
-poisson_ratio = 0.45
-[time]
-end = "0.1 ms"
-output = "0.013 ms"
-[monitor]
-zigzag = 1e-9
-interval = "0.007 ms"
-[[gravity]]
-acceleration = ["1e4*sin(1e5*t)", 0, 0]
-[[probe]]
-name = "tip"
-body = "first"
-at = [0.009, 0.004, 0]
-[[probe]]
-name = "slow"
-body = "first"
-at = [0.009, 0.004, 0]
-quantity = "velocity"
-interval = "0.009 ms"
-[[measure]]
-name = "tip_max"
-probe = "tip"
-component = "x"
-kind = "maximum"
-"#;
-
-/// A block on a lattice that is pulled at one end.
-const BLOCK: &str = r#"
-[[body]]
-name = "first"
-material = "rubber"
-shape = { box = { min = [0, 0, 0], max = ["10 mm", "8 mm", "6 mm"] } }
-velocity = ["20*sin(300*x)", 0, 0]
-[[boundary]]
-region = { box = { min = [-1, -1, -1], max = ["1 mm", 1, 1] } }
-velocity = ["-5*(1 - cos(1e5*t))", 0, 0]
-[[boundary]]
-region = { box = { min = ["9 mm", -1, -1], max = ["1 m", 1, 1] } }
-displacement = ["free", "1e-4*sin(2e4*t)", 0]
-name = "grip"
-[[probe]]
-name = "pull"
-of = "grip"
-quantity = "reaction"
-"#;
-
-/// Two bodies on no lattice that meet.
-const ROUND: &str = r#"
-[[body]]
-name = "first"
-material = "rubber"
-shape = { SHAPE = { center = [0.005, 0.004, 0], radius = "5 mm" } }
-fill = "concentric"
-velocity = [20, 0, 0]
-[[body]]
-name = "second"
-material = "rubber"
-shape = { SHAPE = { center = [0.0175, 0.004, 0], radius = "5 mm" } }
-fill = "concentric"
-velocity = [-20, 5, 0]
-"#;
-
-fn text(formulation: &str, dimension: usize, bodies: &str) -> String {
-    let model = if formulation.starts_with("ul") { "linear-elastic" } else { "neo-hookean" };
-    let head = format!("name = \"case\"\ndimension = {dimension}\nformulation = \"{formulation}\"\n");
-    let text = format!("{head}{COMMON}{bodies}").replace("MODEL", model).replace("SHAPE", "ball");
-    if dimension == 3 { text } else { flat(&text) }
-}
-
-/// Vectors of two components instead of three.
-fn flat(text: &str) -> String {
-    let line = |line: &str| {
-        let mut out = String::new();
-        for piece in line.split_inclusive(']') {
-            let vector = piece.strip_suffix(']').and_then(|p| p.rsplit_once('[').map(|(_, inner)| inner));
-            match vector {
-                Some(inner) if inner.matches(',').count() == 2 => {
-                    out += &piece[..piece.rfind(',').expect("a comma")];
-                    out.push(']');
-                }
-                _ => out += piece,
-            }
-        }
-        out + "\n"
-    };
-    text.lines().map(line).collect()
-}
 
 /// Asks a run to stop after a step, and counts.
 struct After(u64, Stop);
@@ -138,7 +46,7 @@ fn left(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             files.insert(name, fs::read(entry.path()).expect("a file"));
         }
     }
-    for table in ["audit.csv", "reactions.csv"] {
+    for table in ["audit.csv", "reactions.csv", "convergence.csv"] {
         files.extend(fs::read(out.join(table)).ok().map(|bytes| (table.into(), bytes)));
     }
     let text = fs::read(out.join("summary.json")).expect("a summary");
@@ -224,6 +132,14 @@ fn updated_lagrangian_bodies_go_on_bit_by_bit() {
         same_bits(&text(formulation, 2, BLOCK), Numbers::Single);
         same_bits(&text(formulation, 2, ROUND), Numbers::Single);
     }
+}
+
+#[test]
+fn quasi_static_runs_go_on_bit_by_bit() {
+    same_bits(PULLED, Numbers::Double);
+    same_bits(&PULLED.replace("increments = 8", "increments = 300"), Numbers::Single);
+    let damped = "[damping]\nprobability = 0.2\nviscosity = \"100 Pa*s\"\n[[body]]";
+    same_bits(&PULLED.replace("[[body]]", damped).replace("tl-nested", "tl-ganzenmueller"), Numbers::Double);
 }
 
 /// Checkpoints as often as can be leave the same results.
