@@ -2,7 +2,6 @@
 
 use crate::CaseError;
 use crate::run::RunError;
-use taut::diagnostics::disorder::DisorderError;
 use taut::integrator::Diverged;
 
 /// A study that failed.
@@ -40,12 +39,6 @@ impl StudyError {
 
 impl From<CaseError> for StudyError {
     fn from(error: CaseError) -> Self {
-        Self::Run(error.into())
-    }
-}
-
-impl From<DisorderError> for StudyError {
-    fn from(error: DisorderError) -> Self {
         Self::Run(error.into())
     }
 }

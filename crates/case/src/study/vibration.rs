@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use super::operator::{Mode, Operator};
-use crate::build::{Watch, build, interior};
+use crate::build::{build, interior};
 use crate::run::{Framer, fields_measured, masses};
 use crate::{Case, Formulation};
 use output::Frame;
@@ -21,8 +21,8 @@ pub struct Shown {
     pub body: String,
     /// The mode.
     pub mode: Mode,
-    /// Zigzag (root mean square, over the spacing) for a root mean square displacement of one spacing: near 0 for a smooth mode, up to 1 for one that alternates
-    /// from particle to particle.
+    /// What the kernel's mean does not see of it, as a share of its root mean square: near 0 for a smooth mode, about 1 for one that alternates
+    /// from particle to particle, on a lattice or off it.
     pub zigzag: f64,
     /// The body in it, two spacings away where it moves most.
     pub frame: Frame,
@@ -42,8 +42,44 @@ pub struct Balanced {
 /// The bodies of a case, begun.
 struct Bodies {
     simulation: Simulation,
-    watch: Box<dyn Watch>,
     framer: Framer,
+}
+
+/// Shares of every particle in the mean around each.
+struct Smoother(Vec<Vec<(usize, f64)>>);
+
+impl Smoother {
+    fn of(case: &Case, body: usize, solver: &dyn Solver) -> Self {
+        let Some(kernel) = interior(case, &case.bodies[body]).map(|i| i.kernel) else {
+            return Self(Vec::new());
+        };
+        let n = solver.len();
+        let x: Vec<[f64; 3]> = (0..n).map(|p| solver.read(Quantity::ReferencePosition, p)).collect();
+        let around = |a: usize| {
+            let weight = |b: usize| {
+                let r2: f64 = (0..3).map(|k| (x[a][k] - x[b][k]).powi(2)).sum();
+                kernel.w(r2.sqrt()) * solver.rest_volume(b)
+            };
+            let all: Vec<(usize, f64)> = (0..n).map(|b| (b, weight(b))).filter(|(_, w)| *w > 0.0).collect();
+            let sum: f64 = all.iter().map(|(_, w)| w).sum();
+            all.into_iter().map(|(b, w)| (b, w / sum)).collect()
+        };
+        Self((0..n).map(around).collect())
+    }
+
+    /// The root mean square of a shape without its mean, over that of the shape.
+    fn missed(&self, shape: &[f64], d: usize) -> f64 {
+        let (mut apart, mut all) = (0.0, 0.0);
+        for (i, u) in shape.iter().enumerate() {
+            let mean: f64 = self
+                .0
+                .get(i / d)
+                .map_or(0.0, |near| near.iter().map(|(b, w)| w * shape[b * d + i % d]).sum());
+            apart += (u - mean).powi(2);
+            all += u * u;
+        }
+        (apart / all).sqrt()
+    }
 }
 
 fn bodies(case: &Case) -> Result<Bodies, StudyError> {
@@ -54,7 +90,7 @@ fn bodies(case: &Case) -> Result<Bodies, StudyError> {
     (case.tools, case.contacts) = (Vec::new(), Vec::new());
     let built = build(&case, Numbers::Double)?;
     let simulation = Simulation::start(built.solvers, Vec::new()).map_err(StudyError::unstarted)?;
-    Ok(Bodies { simulation, watch: built.watch, framer: Framer::new(&case) })
+    Ok(Bodies { simulation, framer: Framer::new(&case) })
 }
 
 fn operator(case: &Case, solver: &mut dyn Solver) -> Result<(usize, Operator), StudyError> {
@@ -72,6 +108,7 @@ pub fn modes(case: &Case, count: usize) -> Result<Vec<Shown>, StudyError> {
     let mut shown = Vec::new();
     for s in 0..bodies.simulation.solvers().len() {
         let (index, operator) = operator(case, bodies.simulation.solvers_mut()[s].as_mut())?;
+        let smoother = Smoother::of(case, index, bodies.simulation.solvers()[s].as_ref());
         let mut vibrations = 0;
         for mode in operator.lowest(count)? {
             if vibrations == count {
@@ -82,7 +119,7 @@ pub fn modes(case: &Case, count: usize) -> Result<Vec<Shown>, StudyError> {
             let most = (0..mode.shape.len() / d)
                 .map(|p| (0..d).map(|k| mode.shape[p * d + k].powi(2)).sum::<f64>().sqrt())
                 .fold(0.0, f64::max);
-            let zigzag = bodies.zigzag(case, s, &mode.shape)?;
+            let zigzag = smoother.missed(&mode.shape, d);
             let frame = bodies.frame(s, &mode.shape, (SHOWN * case.spacing / most, mode.frequency()));
             shown.push(Shown { body: case.name_of(index).to_string(), mode, zigzag, frame });
         }
@@ -115,17 +152,6 @@ pub fn equilibrium(case: &Case) -> Result<Balanced, StudyError> {
 }
 
 impl Bodies {
-    /// The zigzag of a mode whose root mean square is a spacing.
-    fn zigzag(&mut self, case: &Case, solver: usize, shape: &[f64]) -> Result<f64, StudyError> {
-        // Small, so that the measure is linear in it.
-        let small = 1e-3 * case.spacing;
-        let particles = (shape.len() / case.dimension) as f64;
-        let size = (shape.iter().map(|c| c * c).sum::<f64>() / particles).sqrt();
-        let snapshot = self.moved(solver, shape, small / size);
-        let share = (self.simulation.len() as f64 / particles).sqrt();
-        Ok(self.watch.measure(&snapshot)?.zigzag_rms / 1e-3 * share)
-    }
-
     /// The bodies with one of them displaced, for a look.
     fn moved(&mut self, solver: usize, shape: &[f64], factor: f64) -> Snapshot {
         let there: Vec<f64> = shape.iter().map(|u| factor * u).collect();
