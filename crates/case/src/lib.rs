@@ -45,8 +45,8 @@ mod written;
 pub use checked::{
     Axis, Body, Boundary, Calibration, Case, Constraint, Contact, Course, Curves, Damping, Elastic, Extremum,
     Family, Feature, FieldExpression, Fill, Formulation, Gravity, History, Initial, Kernel, Load, LoadKind,
-    March, Material, Measure, MeasureKind, Model, Monitor, Plane, Probe, Quantity, Scheme, ShapeSpec, Site,
-    Spot, Statics, StepRule, Stepping, Time, Tool, Turn, VectorField,
+    March, Material, Measure, MeasureKind, Model, Monitor, Plane, Probe, Quantity, Saved, Scheme, ShapeSpec,
+    Site, Spot, Statics, StepRule, Stepping, Time, Tool, Turn, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use explain::explain;

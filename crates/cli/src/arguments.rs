@@ -32,6 +32,10 @@ pub enum Command {
         #[arg(default_value = "my-case")]
         name: String,
     },
+    /// Make the particles of a case or of a shape, and save them with a picture and how good they are
+    Particles(ParticleOptions),
+    /// Write the surface of a stent as STL, FILE.stl; nothing is overwritten
+    Surface(ParticleOptions),
     /// Print the JSON schema of case files, for editors that complete and explain
     Schema {
         /// The manual's page of all keys instead
@@ -58,6 +62,23 @@ pub struct CaseOptions {
     /// Override the formulation of every deformable body
     #[arg(long, value_name = "NAME")]
     pub formulation: Option<String>,
+}
+
+/// Which particles, or which surface, to make.
+#[derive(Debug, Args)]
+pub struct ParticleOptions {
+    /// A case file, a built-in case, or a shape as in a case file: '{ ball = { center = [0, 0, 0], radius = "1 cm" } }'
+    #[arg(value_name = "CASE|SHAPE")]
+    pub what: String,
+    /// Where it goes: particles as FILE.vtp, with the picture FILE.png beside it; nothing is overwritten
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub out: PathBuf,
+    /// Distance between particles of a shape, for instance "1 mm"
+    #[arg(long, value_name = "LENGTH")]
+    pub spacing: Option<String>,
+    /// Override a value of the case file, for instance --set parameters.resolution=20
+    #[arg(long = "set", value_name = "a.b=value")]
+    pub set: Vec<String>,
 }
 
 /// Numbers that sums over neighbours are made of; what is integrated in time is double always.

@@ -11,6 +11,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
     ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
     ("tl-punch", include_str!("../../../cases/tl-punch.toml")),
+    ("tl-stent", include_str!("../../../cases/tl-stent.toml")),
     ("contact-hertz", include_str!("../../../cases/contact-hertz.toml")),
     ("contact-sphere", include_str!("../../../cases/contact-sphere.toml")),
     ("contact-bars", include_str!("../../../cases/contact-bars.toml")),
@@ -42,7 +43,6 @@ const CURVES: &[(&str, &str)] = &[
 
 /// Benchmarks of the papers that are not there yet.
 const LATER: &[&str] = &[
-    "tl-stent",
     "ul-plate-3d",
     "ul-hollow-balls",
     "ul-ball-plate-2d",

@@ -13,12 +13,14 @@ mod explain;
 mod list;
 pub mod memory;
 mod new;
+mod particles;
 mod pictures;
 mod progress;
 mod rebuild;
 mod run;
 mod schema;
 mod signals;
+mod surface;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -57,6 +59,8 @@ where
         Command::Check(options) => check::check(&options),
         Command::Explain(options) => explain::explain(&options),
         Command::New { name } => new::new(&name),
+        Command::Surface(options) => surface::surface(&options),
+        Command::Particles(options) => particles::particles(&options),
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),

@@ -1,6 +1,7 @@
 //! `[[body]]`.
 
 use super::field::VectorField;
+use super::fill::{self, Fill};
 use super::load::start_velocity;
 use super::names::{find, part_name};
 use super::scheme::{Scheme, Schemes, read_formulation};
@@ -8,9 +9,9 @@ use super::scope::Scope;
 use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
-use crate::keys::{body as keys, fill};
+use crate::keys::body as keys;
 use crate::source::Place;
-use crate::written::{Node, Section, Value};
+use crate::written::{Node, Section};
 
 /// A deformable body.
 #[derive(Debug, Clone)]
@@ -31,37 +32,6 @@ pub struct Body {
     pub place: Place,
 }
 
-/// How particles fill a shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fill {
-    /// A square lattice: particles in the middle of cells, of which one has a corner at `origin` (m).
-    Lattice {
-        /// The corner.
-        origin: [f64; 3],
-    },
-    /// Layers around the centre of a ring or ball.
-    Concentric,
-}
-
-/// The filling that a node describes; a lattice from the origin if there is none.
-pub(crate) fn read_fill(scope: &Scope, node: Option<&Node>) -> Result<Fill, Diagnostic> {
-    let Some(node) = node else { return Ok(Fill::Lattice { origin: [0.0; 3] }) };
-    match &node.value {
-        Value::Text(name) if name == fill::LATTICE => Ok(Fill::Lattice { origin: [0.0; 3] }),
-        Value::Text(name) if name == fill::CONCENTRIC => Ok(Fill::Concentric),
-        Value::Table(_) => {
-            let table = Section::of(node, "`fill`")?;
-            table.only_first(&[fill::LATTICE])?;
-            let lattice = Section::of(table.need(fill::LATTICE)?, "the fill `lattice`")?;
-            lattice.only_first(&[fill::ORIGIN.name])?;
-            let origin = scope.vector(lattice.need(fill::ORIGIN.name)?, &fill::ORIGIN)?;
-            Ok(Fill::Lattice { origin })
-        }
-        _ => Err(Diagnostic::at(node.place, format!("unknown fill, found {}", node.found()))
-            .help("write \"lattice\", \"concentric\" or { lattice = { origin = [..] } }")),
-    }
-}
-
 /// What bodies are read with.
 pub(crate) struct BodyReader<'a, 'b> {
     pub scope: &'a Scope,
@@ -78,7 +48,7 @@ impl BodyReader<'_, '_> {
         let name = problems.keep(part_name(section));
         let material = problems.keep(self.material(section));
         let shape = problems.keep(section.need(keys::SHAPE.name).and_then(|node| self.shapes.shape(node)));
-        let fill = problems.keep(read_fill(self.scope, section.get(keys::FILL.name)));
+        let fill = problems.keep(fill::read(self.scope, section.get(keys::FILL.name)));
         let velocity = problems.keep(self.velocity(section.get(keys::VELOCITY.name)));
         let own = problems.keep(section.get(keys::FORMULATION.name).map(read_formulation).transpose())?;
         Some(Body {

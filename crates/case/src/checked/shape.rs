@@ -42,6 +42,8 @@ pub enum ShapeSpec {
         /// Lowest and highest z of the prism; `None` in 2D.
         height: Option<[f64; 2]>,
     },
+    /// 3D: a tube cut into cells.
+    Stent(geometry::Stent),
     /// Points in any of the shapes.
     Union(Vec<ShapeSpec>),
     /// Points in all of the shapes.

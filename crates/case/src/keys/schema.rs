@@ -149,7 +149,13 @@ fn filling() -> Value {
         "properties": { fill::LATTICE: lattice },
         "required": [fill::LATTICE],
     });
-    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved] })
+    let saved = json!({
+        "type": "object",
+        "additionalProperties": false,
+        "properties": { fill::PARTICLES: { "type": "string" } },
+        "required": [fill::PARTICLES],
+    });
+    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, saved] })
 }
 
 fn shape() -> Value {

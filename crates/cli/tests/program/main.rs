@@ -7,6 +7,7 @@ mod command_line;
 mod diagnosis;
 mod divergence;
 mod loads;
+mod particles;
 mod report;
 mod results;
 mod resume;
