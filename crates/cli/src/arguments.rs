@@ -35,7 +35,7 @@ pub enum Command {
     /// Make the particles of a case or of a shape, and save them with a picture and how good they are
     Particles(ParticleOptions),
     /// Write the surface of a stent as STL, FILE.stl; nothing is overwritten
-    Surface(ParticleOptions),
+    Surface(SurfaceOptions),
     /// Print the JSON schema of case files, for editors that complete and explain
     Schema {
         /// The manual's page of all keys instead
@@ -64,13 +64,27 @@ pub struct CaseOptions {
     pub formulation: Option<String>,
 }
 
-/// Which particles, or which surface, to make.
+/// Which surface to write.
+#[derive(Debug, Args)]
+pub struct SurfaceOptions {
+    /// A case file, a built-in case, or a shape as in a case file
+    #[arg(value_name = "CASE|SHAPE")]
+    pub what: String,
+    /// Where it goes: FILE.stl; nothing is overwritten
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub out: PathBuf,
+    /// Override a value of the case file, for instance --set parameters.strut=0.2
+    #[arg(long = "set", value_name = "a.b=value")]
+    pub set: Vec<String>,
+}
+
+/// Which particles to make.
 #[derive(Debug, Args)]
 pub struct ParticleOptions {
     /// A case file, a built-in case, or a shape as in a case file: '{ ball = { center = [0, 0, 0], radius = "1 cm" } }'
     #[arg(value_name = "CASE|SHAPE")]
     pub what: String,
-    /// Where it goes: particles as FILE.vtp, with the picture FILE.png beside it; nothing is overwritten
+    /// Where they go: FILE.vtp, with the picture FILE.png beside it; nothing is overwritten
     #[arg(long, short = 'o', value_name = "FILE")]
     pub out: PathBuf,
     /// Distance between particles of a shape, for instance "1 mm"

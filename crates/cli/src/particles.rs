@@ -93,10 +93,10 @@ fn tell(case: &Case, stock: &Stock) {
     let Stock { name, points, quality, fitted, .. } = stock;
     let how = match fitted {
         Some((_, steps, true)) => format!(", at rest after {steps} steps"),
-        Some((_, steps, false)) => format!(", not yet at rest after {steps} steps"),
+        Some((_, steps, false)) => format!(", as far as they came to rest in {steps} steps"),
         None => String::new(),
     };
-    say!("{name}: {} particles, spacing {:e} m{how}", points.len(), case.spacing);
+    say!("{name}: {} particles, spacing {:.4e} m{how}", points.len(), case.spacing);
     let other = fitted.as_ref().map(|(lattice, ..)| lattice);
     if other.is_some() {
         say!("  {:45} {:>12} {:>12}", "", "fitted", "lattice");

@@ -1,13 +1,13 @@
 //! `taut surface`.
 
 use crate::Failure;
-use crate::arguments::ParticleOptions;
+use crate::arguments::{ParticleOptions, SurfaceOptions};
 use crate::particles::{case_of, free};
 use case::build::surfaces;
 use geometry::stl;
 
 /// Writes the surface of the bodies of a case, or of a shape, as STL.
-pub fn surface(options: &ParticleOptions) -> Result<(), Failure> {
+pub fn surface(options: &SurfaceOptions) -> Result<(), Failure> {
     let mut file = options.out.clone();
     if file.extension().is_none() {
         file.set_extension("stl");
@@ -17,8 +17,12 @@ pub fn surface(options: &ParticleOptions) -> Result<(), Failure> {
         return Err(Failure::Input(message));
     }
     free(&file)?;
+    // A surface knows no spacing, and a case has to have one.
+    let spacing = options.what.trim().starts_with('{').then(|| "1".to_string());
+    let (what, set) = (options.what.clone(), options.set.clone());
+    let case = case_of(&ParticleOptions { what, out: file.clone(), spacing, set })?;
     let mut triangles = Vec::new();
-    for (name, surface) in surfaces(&case_of(options)?) {
+    for (name, surface) in surfaces(&case) {
         let Some(surface) = surface else {
             let message =
                 format!("the surface of `{name}` cannot be written: only stents have triangles so far");

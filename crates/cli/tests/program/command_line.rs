@@ -41,7 +41,20 @@ fn here(arguments: &[&str]) -> Ended {
 #[test]
 fn help_is_as_agreed() {
     let mut text = String::new();
-    for command in ["", "run", "list", "check", "explain", "new", "schema", "validate", "bench", "report"] {
+    for command in [
+        "",
+        "run",
+        "list",
+        "check",
+        "explain",
+        "new",
+        "schema",
+        "validate",
+        "bench",
+        "report",
+        "particles",
+        "surface",
+    ] {
         let arguments: Vec<&str> = [command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
         let help = here(&arguments).with(0).stdout;
         text += &format!("$ taut {}\n{help}\n", arguments.join(" "));

@@ -54,3 +54,21 @@ fn shapes_are_read_as_in_a_case() {
     assert!(said(&["particles", "tl-plate", "--spacing", "1", "-o", "a"]).contains("goes with a shape"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
+
+#[test]
+fn the_surface_of_a_stent_is_written_once_as_stl() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let stent = "{ stent = { length = 20, diameter = 10, thickness = 0.1, around = 8, along = 4, strut = 0.3, bridge = 0.6 } }";
+    taut(folder.path(), &["surface", stent, "-o", "stent"]).with(0);
+    let bytes = std::fs::read(folder.path().join("stent.stl")).expect("the file");
+    let count = u32::from_le_bytes([bytes[80], bytes[81], bytes[82], bytes[83]]) as usize;
+    assert!(bytes.len() == 84 + 50 * count && count > 10_000, "{count}");
+    assert!(
+        taut(folder.path(), &["surface", stent, "-o", "stent"]).with(2).stderr.contains("exists already")
+    );
+    let ball = "{ ball = { center = [0, 0, 0], radius = 1 } }";
+    assert!(taut(folder.path(), &["surface", ball, "-o", "b"]).with(2).stderr.contains("only stents"));
+    let crowded = stent.replace("0.3", "1.9");
+    let said = taut(folder.path(), &["surface", &crowded, "-o", "c"]).with(2).stderr;
+    assert!(said.contains("`strut` is 1.9") && said.contains("room for less than"), "{said}");
+}

@@ -28,11 +28,11 @@ impl Kernel {
         2.0 * self.h
     }
 
-    /// W'/r and W'' at a distance within the reach: the slope along the way is r times the first, the second derivatives across and
+    /// W'/r and W'' at a distance, 0 beyond the reach: the slope along the way is r times the first, the second derivatives across and
     /// along the way are the first and the second.
     pub(super) fn slopes(&self, r: f64) -> [f64; 2] {
         let q = r / self.h;
-        let s = 1.0 - 0.5 * q;
+        let s = (1.0 - 0.5 * q).max(0.0);
         let scale = -5.0 * self.top / (self.h * self.h);
         [scale * s * s * s, scale * s * s * (1.0 - 2.0 * q)]
     }

@@ -15,6 +15,9 @@ const MOST_STEPS: usize = 2000;
 /// counted in cells of half a spacing.
 const REST: f64 = 2e-3;
 
+/// It is given up too when so many steps have not brought the residual down by a tenth.
+const PATIENCE: usize = 300;
+
 /// How far a particle may be from where its surroundings were looked at, in spacings: what is left out is of second order.
 const VALID: f64 = 0.1;
 
@@ -130,16 +133,12 @@ impl Basin<'_> {
 
     /// Residual and stiffness of a particle.
     fn pull(&self, x: &[Point], i: usize, near: &[u32], around: &Around) -> (Point, f64) {
-        let reach = self.kernel.reach();
         let (mut slope, mut stiffness) = ([0.0; 3], 0.0);
         for &j in near {
             let to = sub(x[i], x[j as usize]);
-            let r = norm(to);
-            if r < reach {
-                let [across, along] = self.kernel.slopes(r);
-                slope = add(slope, scale(to, across));
-                stiffness += across.abs().max(along.abs());
-            }
+            let [across, along] = self.kernel.slopes(norm(to));
+            slope = add(slope, scale(to, across));
+            stiffness += across.abs().max(along.abs());
         }
         let outside = around.outside.slope_at(sub(x[i], around.x));
         let residual = sub(scale(slope, -self.volume), outside);
@@ -211,13 +210,17 @@ impl Basin<'_> {
         let (mut listed, mut lists) = (x.clone(), Lists::new(&x, self.kernel.reach() + skin));
         let mut pace = 1.0_f64;
         let mut settled = Settled { x: Vec::new(), steps: 0, residual: f64::INFINITY, at_rest: x.is_empty() };
-        while settled.steps < MOST_STEPS && !settled.at_rest {
+        let (mut best, mut since) = (f64::INFINITY, 0);
+        while settled.steps < MOST_STEPS && settled.steps - since <= PATIENCE && !settled.at_rest {
             self.refresh(&mut x, &mut grains);
             if moved(&x, &listed) > 0.5 * skin {
                 (listed, lists) = (x.clone(), Lists::new(&x, self.kernel.reach() + skin));
             }
             settled.residual = self.pulls(&x, &lists, &mut grains);
             settled.at_rest = settled.residual < REST;
+            if settled.residual < 0.9 * best {
+                (best, since) = (settled.residual, settled.steps);
+            }
             if uphill(&x, &grains) {
                 pace = 1.0;
             }
