@@ -39,17 +39,19 @@ mod expression;
 pub mod keys;
 pub mod run;
 mod source;
+pub mod study;
 mod units;
 mod written;
 
 pub use checked::{
-    Axis, Body, Boundary, Calibration, Case, Constraint, Contact, Course, Curves, Damping, Elastic, Extremum,
-    Family, Feature, FieldExpression, Fill, Formulation, Gravity, History, Initial, Kernel, Load, LoadKind,
-    March, Material, Measure, MeasureKind, Model, Monitor, Plane, Probe, Quantity, Saved, Scheme, ShapeSpec,
-    Site, Spot, Statics, StepRule, Stepping, Time, Tool, Turn, VectorField,
+    Axis, Body, Boundary, Calibration, Case, Compared, Comparison, Constraint, Contact, Course, Curves,
+    Damping, Elastic, Extremum, Family, Feature, FieldExpression, Fill, Formulation, Gravity, History,
+    Initial, Kernel, Load, LoadKind, March, Material, Measure, MeasureKind, MeshFile, Model, Monitor,
+    Normalisation, Plane, Probe, Quantity, Saved, Scheme, ShapeSpec, Site, Spot, Statics, Statistic,
+    StepRule, Stepping, Time, Tool, Turn, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use explain::explain;
 pub use expression::{Expression, ExpressionError, Names};
-pub use source::{Overrides, Place};
+pub use source::{Overrides, Place, UsedFile};
 pub use units::{Dimension, Quantity as UnitQuantity, UnitError};

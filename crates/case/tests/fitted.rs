@@ -103,7 +103,8 @@ fn gradients_are_exact_and_the_inside_of_a_patch_is_nearly_in_balance() {
         println!("{dimension}D lattice: rate of F {on_lattice:.1e}, inside {:.2e} of all", balanced / around);
         // B is the inverse of a sum of up to 80 dyads, well conditioned: some 100 roundings of 1e-16.
         assert!(error < 2e-13 && on_lattice < 2e-13, "{error:e} {on_lattice:e}");
-        // Accelerations inside are the residual of sum V grad W (2e-3) where those at the surface are a whole one-sided sum (about 1).
-        assert!(inside < 1e-2 * all && balanced < 1e-10 * around, "{inside:e} of {all:e}; {balanced:e}");
+        // Accelerations inside are the residual of sum V grad W (2e-3), those at the surface a one-sided sum (about a half), and a tenth of the
+        // particles or more are there: about a hundredth of the root mean square of all.
+        assert!(inside < 3e-2 * all && balanced < 1e-10 * around, "{inside:e} of {all:e}; {balanced:e}");
     }
 }

@@ -81,6 +81,42 @@ fill = "concentric"
 velocity = [-20, 5, 0]
 "#;
 
+/// A strip that is pulled from equilibrium to equilibrium.
+const PULLED: &str = r#"
+name = "case"
+dimension = 2
+formulation = "tl-nested"
+spacing = "1 mm"
+[material.rubber]
+model = "neo-hookean"
+density = "1.1 g/cm^3"
+youngs_modulus = "17 MPa"
+poisson_ratio = 0.45
+[time]
+end = "1 s"
+[quasi_static]
+increments = 8
+tolerance = 0.02
+[[body]]
+name = "first"
+material = "rubber"
+shape = { box = { min = [0, 0], max = ["10 mm", "8 mm"] } }
+[[boundary]]
+region = { box = { min = [-1, -1], max = ["1 mm", 1] } }
+displacement = [0, 0]
+[[boundary]]
+region = { box = { min = ["9 mm", -1], max = ["1 m", 1] } }
+displacement = ["0.002*t", "free"]
+name = "grip"
+[[probe]]
+name = "tip"
+at = [0.009, 0.004]
+[[probe]]
+name = "pull"
+of = "grip"
+quantity = "reaction"
+"#;
+
 fn text(formulation: &str, dimension: usize, bodies: &str) -> String {
     let model = if formulation.starts_with("ul") { "linear-elastic" } else { "neo-hookean" };
     let head = format!("name = \"case\"\ndimension = {dimension}\nformulation = \"{formulation}\"\n");
@@ -138,7 +174,7 @@ fn left(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             files.insert(name, fs::read(entry.path()).expect("a file"));
         }
     }
-    for table in ["audit.csv", "reactions.csv"] {
+    for table in ["audit.csv", "reactions.csv", "convergence.csv"] {
         files.extend(fs::read(out.join(table)).ok().map(|bytes| (table.into(), bytes)));
     }
     let text = fs::read(out.join("summary.json")).expect("a summary");
@@ -224,6 +260,14 @@ fn updated_lagrangian_bodies_go_on_bit_by_bit() {
         same_bits(&text(formulation, 2, BLOCK), Numbers::Single);
         same_bits(&text(formulation, 2, ROUND), Numbers::Single);
     }
+}
+
+#[test]
+fn quasi_static_runs_go_on_bit_by_bit() {
+    same_bits(PULLED, Numbers::Double);
+    same_bits(&PULLED.replace("increments = 8", "increments = 300"), Numbers::Single);
+    let damped = "[damping]\nprobability = 0.2\nviscosity = \"100 Pa*s\"\n[[body]]";
+    same_bits(&PULLED.replace("[[body]]", damped).replace("tl-nested", "tl-ganzenmueller"), Numbers::Double);
 }
 
 /// Checkpoints as often as can be leave the same results.

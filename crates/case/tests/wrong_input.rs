@@ -45,12 +45,17 @@ const ROWS: &[Row] = &[
     (PLATE, "name = \"plate\"", "name = 3", &["name has to be a text, found the number 3"]),
     (PLATE, "dimension = 2", "dimension = 4", &["has to be 2 or 3, found the number 4"]),
     (PLATE, "dimension = 2", "dimension = \"2\"", &["has to be 2 or 3, found the text \"2\""]),
-    (PLATE, "dimension = 2", "dimension = 2\n@plane = \"stress\"", &["plane stress", "not in this version"]),
+    (
+        PLATE,
+        "dimension = 2",
+        "dimension = 2\n@plane = \"stress\"",
+        &["`plane = \"stress\"` does not go with `tl-hourglass-free`", "only small-strain"],
+    ),
     (
         PLATE,
         "dimension = 2",
         "dimension = 2\n@plane = \"plain\"",
-        &["unknown plane `plain`", "`strain`, `papers`"],
+        &["unknown plane `plain`", "`strain`, `stress`, `papers`"],
     ),
     (
         COLUMN,
@@ -70,7 +75,7 @@ const ROWS: &[Row] = &[
         "ul-non-hourglas",
         &["unknown formulation", "did you mean `ul-non-hourglass`?"],
     ),
-    (RINGS, "ul-non-hourglass", "ul-generalised", &["`ul-generalised` is planned, but not in this version"]),
+    (RINGS, "ul-non-hourglass", "ul-generalized", &["unknown formulation", "did you mean `ul-generalised`?"]),
     (RINGS, "\"dual\"", "\"duel\"", &["unknown stepping `duel`", "did you mean `dual`?"]),
     (
         PLATE,

@@ -36,6 +36,11 @@ pub enum Command {
     Particles(ParticleOptions),
     /// Write the surface of a stent as STL, FILE.stl; nothing is overwritten
     Surface(SurfaceOptions),
+    /// Tell what is in a file of triangles (STL, OBJ), and whether it is a body: in the file's own unit of length
+    Mesh {
+        /// The file
+        file: PathBuf,
+    },
     /// Print the JSON schema of case files, for editors that complete and explain
     Schema {
         /// The manual's page of all keys instead
@@ -46,6 +51,14 @@ pub enum Command {
     Validate(ValidateOptions),
     /// Measure how fast this machine runs every formulation: see docs/performance.md
     Bench(BenchOptions),
+    /// Find the longest stable step of a case: by formulas, by its highest frequency, and by running it; for small strain draw what it depends on
+    Stability(StudyOptions),
+    /// Compute the lowest modes of vibration of small-strain bodies, and show them
+    Modes(ModesOptions),
+    /// Solve for the equilibrium of small-strain bodies under their loads, without marching there
+    Static(StudyOptions),
+    /// Tell at which frequencies a probe of a run moves
+    Spectrum(SpectrumOptions),
     /// Rebuild pictures and plots of a run, finished or not, from its files; or animate it
     Report(ReportOptions),
 }
@@ -119,6 +132,68 @@ pub struct TrialOptions {
     /// Numbers in the sums over neighbours; what is integrated in time is double always
     #[arg(long, default_value = "double")]
     pub precision: Precision,
+}
+
+/// A case that is studied.
+#[derive(Debug, Args)]
+pub struct StudyOptions {
+    #[command(flatten)]
+    pub case: CaseOptions,
+    /// Result directory [default: out/<case>-<study>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// Which modes.
+#[derive(Debug, Args)]
+pub struct ModesOptions {
+    #[command(flatten)]
+    pub case: CaseOptions,
+    /// Modes of each body that are no rigid motion
+    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u16).range(1..=500))]
+    pub count: u16,
+    /// Result directory [default: out/<case>-modes]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// How samples are weighed before they are transformed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum SampleWindow {
+    /// Hann's: one line does not cover another far away
+    Hann,
+    /// None: the finest resolution
+    None,
+}
+
+impl From<SampleWindow> for case::study::spectrum::Window {
+    fn from(window: SampleWindow) -> Self {
+        match window {
+            SampleWindow::Hann => Self::Hann,
+            SampleWindow::None => Self::None,
+        }
+    }
+}
+
+/// Which spectrum.
+#[derive(Debug, Args)]
+pub struct SpectrumOptions {
+    /// Result directory of a run
+    pub dir: PathBuf,
+    /// Name of a probe
+    pub probe: String,
+    /// Samples from this time on, s
+    #[arg(long, value_name = "TIME")]
+    pub from: Option<f64>,
+    /// Samples up to this time, s
+    #[arg(long, value_name = "TIME")]
+    pub to: Option<f64>,
+    /// Weight of the samples
+    #[arg(long, value_name = "KIND", default_value = "hann")]
+    pub window: SampleWindow,
+    /// Highest frequency that is written and drawn, Hz [default: half more than the highest peak that is told]
+    #[arg(long, value_name = "HZ")]
+    pub highest: Option<f64>,
 }
 
 /// What to run, and how.

@@ -22,7 +22,15 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-flag", include_str!("../../../cases/tl-flag.toml")),
     ("tl-loaded-beam", include_str!("../../../cases/tl-loaded-beam.toml")),
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
+    ("ul-plate-3d", include_str!("../../../cases/ul-plate-3d.toml")),
+    ("lk-rectangle", include_str!("../../../cases/lk-rectangle.toml")),
+    ("lk-annulus", include_str!("../../../cases/lk-annulus.toml")),
+    ("lk-stability", include_str!("../../../cases/lk-stability.toml")),
+    ("lk-collision", include_str!("../../../cases/lk-collision.toml")),
     ("ul-rings", include_str!("../../../cases/ul-rings.toml")),
+    ("ul-hollow-balls", include_str!("../../../cases/ul-hollow-balls.toml")),
+    ("ul-ball-plate-2d", include_str!("../../../cases/ul-ball-plate-2d.toml")),
+    ("ul-ball-plate-3d", include_str!("../../../cases/ul-ball-plate-3d.toml")),
 ];
 
 /// Reference curves of the built-in cases, by their paths.
@@ -41,27 +49,12 @@ const CURVES: &[(&str, &str)] = &[
     ),
 ];
 
-/// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] = &[
-    "ul-plate-3d",
-    "ul-hollow-balls",
-    "ul-ball-plate-2d",
-    "ul-ball-plate-3d",
-    "lk-rectangle",
-    "lk-annulus",
-    "lk-stability",
-    "lk-collision",
-];
-
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {
     let overrides = Overrides { set: options.set.clone(), formulation: options.formulation.clone() };
     let read = match CASES.iter().find(|(name, _)| *name == options.case) {
         Some((name, text)) => Case::parse(&format!("{name}.toml (built in)"), text, &overrides)
             .and_then(|case| case.with_references(curves)),
-        None if LATER.contains(&options.case.as_str()) => {
-            return Err(Failure::Input(format!("the benchmark {} comes in a later version.", options.case)));
-        }
         None if !Path::new(&options.case).exists() => return Err(unknown(&options.case)),
         None => Case::read(Path::new(&options.case), &overrides),
     };

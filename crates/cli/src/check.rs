@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::arguments::TrialOptions;
 use crate::builtin::{colour, read};
-use crate::say;
+use crate::{mesh, say};
 use case::Case;
 use case::run::{Estimate, RunError, estimate};
 use report::{Picture, View, encoded, picture};
@@ -23,6 +23,7 @@ pub fn check(options: &TrialOptions) -> Result<(), Failure> {
     for tool in &case.tools {
         say!("  tool {}: rigid", tool.name);
     }
+    mesh::of_case(&case);
     print(&case, &e);
     for warning in &e.warnings {
         say!("  warning: {warning}");
@@ -49,6 +50,15 @@ fn print(case: &Case, e: &Estimate) {
     say!("  disk        about {:.0} MB of frames", (e.disk / 1e6).max(1.0));
     say!("  time step   {:.4e} s, about {:.0} steps to {} s", e.dt, e.steps, case.time.end);
     say!("  run time    about {} on {}", duration(e.seconds), threads(e.threads));
+    let [look, frame, checkpoint] = e.costs;
+    say!(
+        "  output      about {:.1} % of that: a frame costs {frame:.0} steps, a look at disorder {look:.0}{}",
+        100.0 * e.output,
+        match checkpoint {
+            0.0 => String::new(),
+            checkpoint => format!(", a checkpoint {checkpoint:.0}"),
+        }
+    );
     if let Some(spacing) = e.tried {
         say!("  (too large to try: reckoned from the same case with a spacing of {spacing:.4e} m;");
         say!("  doubts about its particles are told when it runs)");

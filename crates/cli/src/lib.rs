@@ -12,6 +12,7 @@ mod check;
 mod explain;
 mod list;
 pub mod memory;
+mod mesh;
 mod new;
 mod particles;
 mod pictures;
@@ -20,6 +21,7 @@ mod rebuild;
 mod run;
 mod schema;
 mod signals;
+mod study;
 mod surface;
 mod validate;
 
@@ -61,9 +63,14 @@ where
         Command::New { name } => new::new(&name),
         Command::Surface(options) => surface::surface(&options),
         Command::Particles(options) => particles::particles(&options),
+        Command::Mesh { file } => mesh::mesh(&file),
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),
         Command::Bench(options) => bench::bench(&options),
+        Command::Stability(options) => study::stability::stability(&options),
+        Command::Modes(options) => study::vibration::modes(&options),
+        Command::Static(options) => study::vibration::equilibrate(&options),
+        Command::Spectrum(options) => study::spectrum::of_probe(&options),
         Command::Report(options) => rebuild::report(&options),
     };
     match done {

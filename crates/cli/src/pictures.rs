@@ -27,7 +27,11 @@ pub fn draw(case: &Case, frames: &[Frame], results: &Path) -> Result<(), Failure
         _ => &["start", "middle", "end"],
     };
     for (frame, name) in frames.iter().zip(names) {
-        let options = Picture { title: case.title.clone(), view, window, ..Picture::default() };
+        let plain = Picture { title: case.title.clone(), view, window, ..Picture::default() };
+        let options = match case.shear_stress {
+            true => plain,
+            false => Picture { field: "Pressure".to_string(), ..plain },
+        };
         let file = results.join(format!("{name}.png"));
         write_png(&picture(frame, &options), &file)
             .map_err(|error| Failure::Run(format!("{error}\nhint: {}", error.hint())))?;

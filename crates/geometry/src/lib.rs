@@ -21,6 +21,7 @@ mod bounds;
 mod distance;
 mod fill;
 mod measure;
+mod mesh;
 mod point;
 mod polygon;
 mod problem;
@@ -31,6 +32,9 @@ mod validate;
 
 pub use bounds::Bounds;
 pub use fill::{Fill, FillError, Fit, MAX_PARTICLES, Points, Quality, fill, fit, reckon, thickness};
+pub use mesh::{
+    Crossings, Hole, MAX_COMPONENTS, MAX_TRIANGLES, Mended, Mesh, MeshError, MeshFormat, MeshReport, Thin,
+};
 pub use point::{Dimension, Point};
 pub use problem::{ShapeError, ShapeProblem};
 pub use shape::Shape;

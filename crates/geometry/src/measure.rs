@@ -24,6 +24,7 @@ pub(crate) fn volume(shape: &Shape, dimension: Dimension) -> Option<f64> {
         Shape::Scale { factor, shape, .. } => {
             volume(shape, dimension).map(|v| v * factor.powi(dimension.axes() as i32))
         }
+        Shape::Mesh(mesh) => Some(mesh.volume()),
         Shape::Stent(_) | Shape::Union(_) | Shape::Intersection(_) | Shape::Difference(..) => None,
     }
 }

@@ -87,6 +87,9 @@ pub enum ShapeProblem {
     /// A shape of space in a plane case.
     #[error("it exists in 3D only; in 2D use a ball for a disc, a box for a bar or a polygon")]
     OnlyInSpace,
+    /// A mesh in a plane case.
+    #[error("a mesh of triangles exists in 3D only; in 2D draw its section as a polygon")]
+    MeshInPlane,
     /// An axis without direction.
     #[error("`axis` is zero; give a direction, such as [0, 0, 1]")]
     NoAxis,

@@ -1,6 +1,7 @@
 //! The shapes, and what can be asked of them.
 
 use crate::bounds::Bounds;
+use crate::mesh::Mesh;
 use crate::point::{Point, Turn, add, stretch, sub};
 use crate::stent::Stent;
 use crate::{distance, polygon};
@@ -49,6 +50,8 @@ pub enum Shape {
     },
     /// A tube cut into cells. Only in 3D.
     Stent(Stent),
+    /// What a surface of triangles encloses. Only in 3D.
+    Mesh(Mesh),
     /// What lies in any of the shapes.
     Union(Vec<Shape>),
     /// What lies in all of the shapes.
@@ -87,7 +90,7 @@ pub enum Shape {
 impl Shape {
     /// The signed distance from `x` to the boundary, in metres, negative inside.
     ///
-    /// Exact for boxes, balls, rings, cylinders and polygons, moved, turned and magnified as they may be. For
+    /// Exact for boxes, balls, rings, cylinders, polygons and meshes (see [`Mesh::distance`]), moved, turned and magnified as they may be. For
     /// stents, unions, intersections and differences the magnitude is the true distance or less: a ball of that
     /// radius around `x` does not cross the boundary. Where surfaces of the combined shapes coincide, as
     /// where two boxes or two cuts are joined at a face, it is 0 also off the boundary.
@@ -101,6 +104,7 @@ impl Shape {
             Self::Cylinder { from, to, radius } => distance::cylinder([*from, *to], *radius, x),
             Self::Polygon { points, height } => distance::prism(points, *height, x),
             Self::Stent(stent) => stent.distance(x),
+            Self::Mesh(mesh) => mesh.distance(x),
             Self::Union(shapes) => nearest(shapes, x),
             Self::Intersection(shapes) => {
                 shapes.iter().map(|s| s.distance(x)).fold(f64::NEG_INFINITY, f64::max)
@@ -129,6 +133,7 @@ impl Shape {
             Self::Cylinder { from, to, radius } => distance::cylinder_bounds([*from, *to], *radius),
             Self::Polygon { points, height } => polygon::bounds(points, height.unwrap_or([0.0; 2])),
             Self::Stent(stent) => stent.bounds(),
+            Self::Mesh(mesh) => mesh.bounds(),
             Self::Union(shapes) => shapes.iter().fold(Bounds::around([]), |b, s| b.join(&s.bounds())),
             Self::Intersection(shapes) => {
                 shapes.iter().map(Shape::bounds).reduce(|a, b| a.meet(&b)).unwrap_or(Bounds::around([]))
@@ -151,6 +156,7 @@ impl Shape {
             Self::Cylinder { .. } => "cylinder",
             Self::Polygon { .. } => "polygon",
             Self::Stent(_) => "stent",
+            Self::Mesh(_) => "mesh",
             Self::Union(_) => "union",
             Self::Intersection(_) => "intersection",
             Self::Difference(..) => "difference",

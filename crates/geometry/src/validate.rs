@@ -70,6 +70,8 @@ fn own_problem(shape: &Shape, dimension: Dimension) -> Result<(), Problem> {
             _ if dimension == Two => Err(Problem::OnlyInSpace),
             problem => problem.map_or(Ok(()), Err),
         },
+        Shape::Mesh(_) if dimension == Two => Err(Problem::MeshInPlane),
+        Shape::Mesh(_) => Ok(()),
         Shape::Union(shapes) | Shape::Intersection(shapes) if shapes.is_empty() => Err(Problem::Nothing),
         Shape::Union(_) | Shape::Intersection(_) | Shape::Difference(..) => Ok(()),
         Shape::Translate { by, .. } => place("by", *by),

@@ -49,9 +49,23 @@ pub struct Manifest {
     pub precision: String,
     /// Where it ran.
     pub machine: Machine,
+    /// The files that the case refers to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<KeptFile>,
     /// When it was interrupted and went on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub resumed: Vec<Resumed>,
+}
+
+/// A file that a case refers to, and the copy that the run kept of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptFile {
+    /// Its path, as the case says it.
+    pub name: String,
+    /// The path of the copy, from the result directory.
+    pub kept: String,
+    /// [`hash`] of its bytes.
+    pub hash: String,
 }
 
 /// A run that went on from a checkpoint.
@@ -85,6 +99,7 @@ impl Manifest {
             threads,
             precision: precision.to_string(),
             machine,
+            files: Vec::new(),
             resumed: Vec::new(),
         }
     }

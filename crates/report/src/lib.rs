@@ -7,6 +7,7 @@
 mod animation;
 mod audit;
 mod colours;
+mod corner;
 mod error;
 mod field;
 mod image;
@@ -27,6 +28,6 @@ pub use error::ReportError;
 pub use field::{components, split_field};
 pub use image::{Image, encoded, write_png};
 pub use picture::{Picture, picture, typical_range};
-pub use plot::plot_probe;
+pub use plot::{plot_over, plot_probe};
 pub use range::Range;
 pub use view::{View, Window};

@@ -18,6 +18,8 @@ use crate::view::{View, Window, project};
 pub struct Picture {
     /// Stands above the picture.
     pub title: String,
+    /// Stands below the title instead of the time; the empty text is the time.
+    pub note: String,
     /// The quantity that gives the colours: `Pressure`; `Velocity` is its magnitude, `Velocity.x` or `CauchyStress.xy` a component.
     pub field: String,
     /// From where; `None` is the plane view with flat discs, for two dimensions.
@@ -38,6 +40,7 @@ impl Default for Picture {
     fn default() -> Self {
         Self {
             title: String::new(),
+            note: String::new(),
             field: "VonMisesStress".to_string(),
             view: None,
             window: None,
@@ -63,7 +66,9 @@ pub fn picture(frame: &Frame, options: &Picture) -> Image {
     let layout = Layout::new(window.size()[0] / window.size()[1], options.size);
     let mut image = Image::white(layout.image[0], layout.image[1]);
     let room = layout.image[0] - 2 * MARGIN - if options.view.is_some() { TRIPOD } else { 0 };
-    legend::header(&mut image, [&options.title, &format!("t = {}", quantity(frame.time, "s"))], room);
+    let time = format!("t = {}", quantity(frame.time, "s"));
+    let below = if options.note.is_empty() { &time } else { &options.note };
+    legend::header(&mut image, [&options.title, below], room);
     let sheet = Sheet::new(window, options.view, &layout);
     let shown = shown(frame, &options.field);
     let values: &[f64] = shown.as_ref().map_or(&[], |shown| &shown.values);

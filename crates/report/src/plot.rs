@@ -9,6 +9,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::ReportError;
+use crate::corner;
 use crate::scale::Scale;
 
 const SIZE: (u32, u32) = (960, 540);
@@ -40,12 +41,32 @@ pub fn plot_probe(
     reference: Option<&Reference>,
     path: &Path,
 ) -> Result<(), ReportError> {
+    plot((title, TIME), table, reference, path)
+}
+
+/// The axis of most plots.
+const TIME: (&str, &str) = ("time", "s");
+
+/// Draws the columns of `table` as [`plot_probe`] does, over what is called `over`, with its unit, and stands where times would.
+///
+/// # Errors
+/// [`ReportError::Write`] if the file cannot be written.
+pub fn plot_over(title: &str, over: (&str, &str), table: &Table, path: &Path) -> Result<(), ReportError> {
+    plot((title, over), table, None, path)
+}
+
+fn plot(
+    (title, over): (&str, (&str, &str)),
+    table: &Table,
+    reference: Option<&Reference>,
+    path: &Path,
+) -> Result<(), ReportError> {
     let curves: Vec<Curve> =
         table.columns.iter().enumerate().flat_map(|c| curves(c, table, reference)).collect();
     let mut svg = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        chart((title, reference), table, &curves, &area)
+        chart((title, over, reference), table, &curves, &area)
             .and_then(|()| Ok(area.present()?))
             .map_err(|cause| cause.to_string())
     };
@@ -78,7 +99,7 @@ fn curves<'a>(
     let own = Curve { label, colour, dashed: false, parts: parts(&table.times, &column.values) };
     let end = table.times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let others = reference.into_iter().flat_map(move |reference| {
-        reference.curves(&column.name).map(move |curve| {
+        reference.curves(&column.name).enumerate().map(move |(n, curve)| {
             let seen = reference
                 .table
                 .times
@@ -88,7 +109,11 @@ fn curves<'a>(
             let values = &curve.values[..seen.min(curve.values.len())];
             Curve {
                 label: format!("{}, reference", curve.name),
-                colour: RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                // The first belongs to its column by its colour, the others have their own.
+                colour: match n {
+                    0 => RGBColor(colour.0 / 2, colour.1 / 2, colour.2 / 2),
+                    n => LINES[(index + table.columns.len() + n - 1) % LINES.len()],
+                },
                 dashed: true,
                 parts: parts(&reference.table.times[..values.len()], values),
             }
@@ -100,17 +125,17 @@ fn curves<'a>(
 /// One chart of all columns of a table.
 pub(crate) fn chart_of(title: &str, table: &Table, area: &Area) -> Drawn {
     let curves: Vec<Curve> = table.columns.iter().enumerate().flat_map(|c| curves(c, table, None)).collect();
-    chart((title, None), table, &curves, area)
+    chart((title, TIME, None), table, &curves, area)
 }
 
 fn chart(
-    (title, reference): (&str, Option<&Reference>),
+    (title, over, reference): (&str, (&str, &str), Option<&Reference>),
     table: &Table,
     curves: &[Curve],
     area: &Area,
 ) -> Drawn {
     let all = || curves.iter().flat_map(|curve| curve.parts.iter().flatten());
-    let time = Axis::new("time", "s", all().map(|point| point.0));
+    let time = Axis::new(over.0, over.1, all().map(|point| point.0));
     let value = value_axis(&table.columns, all().map(|point| point.1));
     area.fill(&WHITE)?;
     if let Some(source) =
@@ -150,7 +175,7 @@ fn chart(
     if curves.len() > 1 {
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(corner::emptiest(all().map(|&(x, y)| (time.part(x), value.part(y)))))
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 16))
@@ -242,6 +267,11 @@ impl Axis {
     /// `value` in the unit of the axis.
     fn shown(&self, value: f64) -> f64 {
         value / self.scale.divisor
+    }
+
+    /// Where `value` lies between the ends of the axis, 0 to 1.
+    fn part(&self, value: f64) -> f64 {
+        (self.shown(value) - self.range.start) / (self.range.end - self.range.start)
     }
 
     /// The number at a tick, `shown` being in the unit of the axis.

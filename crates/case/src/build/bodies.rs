@@ -53,6 +53,13 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
                     format!("the bodies before it use {}", group.bodies[0].1.scheme.formulation.name());
                 return Err(case.error_at(body.place, message, Some(help)));
             }
+            Some(group) if group.bodies[0].1.scheme.smoothing != body.scheme.smoothing => {
+                let message = format!(
+                    "body `{}` has its own `smoothing`, but updated Lagrangian bodies share their pairs and need one",
+                    body.name
+                );
+                return Err(case.error_at(body.place, message, None));
+            }
             Some(group) => {
                 group.bodies.push((index, body));
                 group.points.append(&mut points);
@@ -75,6 +82,9 @@ pub fn filled<const D: usize>(
         Fill::Concentric => geometry::Fill::Concentric,
         Fill::Fitted => geometry::Fill::Fitted,
         Fill::Saved(saved) => return saved::filled(case, (&shape, saved), (name, place)),
+        Fill::Polar { around, rings } => {
+            geometry::Fill::Polar { around: *around as usize, rings: rings.map(|n| n as usize) }
+        }
     };
     let filled = geometry::fill(&shape, &fill, case.spacing, shapes::dimension::<D>());
     let points = filled

@@ -3,6 +3,7 @@
 use super::bodies::{Group, padded};
 use super::shapes;
 use crate::{Case, Constraint, Fill, ShapeSpec};
+use geometry::Mesh;
 use taut::neighbours::{Adjacency, Search};
 use taut::simulation::Point;
 
@@ -21,6 +22,7 @@ pub fn warnings<const D: usize>(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(thin(case, across));
+    warnings.extend(slender(case));
     warnings.extend(lost::<D>(case));
     warnings.extend(overlap(case, (groups, tools)));
     warnings.extend(fast(case, groups));
@@ -36,6 +38,39 @@ fn thin(case: &Case, across: &[usize]) -> Vec<String> {
         )
     })
     .collect()
+}
+
+/// Meshes that are somewhere thinner than a particle.
+fn slender(case: &Case) -> Vec<String> {
+    let bodies = case.bodies.iter().map(|body| (&body.name, &body.shape));
+    let all = bodies.chain(case.tools.iter().map(|tool| (&tool.name, &tool.shape)));
+    let mut warnings = Vec::new();
+    for (name, shape) in all {
+        each_mesh(shape, 1.0, &mut |file, mesh, scale| {
+            let Some(thin) = mesh.thinnest().filter(|thin| thin.thickness * scale < case.spacing) else {
+                return;
+            };
+            let (thickness, at) = (thin.thickness * scale, thin.at);
+            warnings.push(format!(
+                "`{name}` is thinner than a particle: the mesh {file} is {thickness:.4e} m thick at ({:.4e}, {:.4e}, {:.4e}) m of the file, and the spacing is {:.4e} m; what is that thin has no particles or a single layer",
+                at[0], at[1], at[2], case.spacing
+            ));
+        });
+    }
+    warnings
+}
+
+/// Every mesh in a shape, with its file and by how much it is scaled.
+fn each_mesh(shape: &ShapeSpec, scale: f64, tell: &mut impl FnMut(&str, &Mesh, f64)) {
+    match shape {
+        ShapeSpec::Mesh { file, mesh } => tell(file, mesh, scale),
+        ShapeSpec::Union(parts) | ShapeSpec::Intersection(parts) | ShapeSpec::Difference(parts) => {
+            parts.iter().for_each(|part| each_mesh(part, scale, tell));
+        }
+        ShapeSpec::Translate { shape, .. } | ShapeSpec::Rotate { shape, .. } => each_mesh(shape, scale, tell),
+        ShapeSpec::Scale { factor, shape, .. } => each_mesh(shape, scale * factor, tell),
+        _ => {}
+    }
 }
 
 fn overlap<const D: usize>(

@@ -18,7 +18,8 @@ mod touch;
 
 pub use afford::{available_memory, reckon};
 pub use observe::{ProbePoint, Watch};
-pub(crate) use shapes::bounds;
+pub(crate) use shapes::{bounds, shape as shape_of};
+pub(crate) use solvers::interior;
 pub(crate) use statics::increments;
 pub use stock::{Stock, particles, surfaces};
 

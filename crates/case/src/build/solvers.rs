@@ -2,15 +2,17 @@
 
 use super::bodies::Group;
 use crate::{
-    Body, Calibration, Case, CaseError, Formulation, Kernel, March, Material, Model, Plane, StepRule,
-    Stepping,
+    Body, Calibration, Case, CaseError, Formulation, Kernel, March, Material, Model, Normalisation, Plane,
+    StepRule, Stepping,
 };
+use taut::diagnostics::stability::Interior;
 use taut::formulation::updated::Hypoelastic;
 use taut::integrator::{self, TotalOptions, UpdatedOptions, WaveSpeed};
 use taut::kernel;
-use taut::material::{self, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
+use taut::material::{self, LinearElastic, Moduli, NeoHookean, NeoHookeanLog, SaintVenantKirchhoff};
 use taut::simulation::{
-    self, InSpace, Law, Numbers, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies,
+    self, EdgeForm, InSpace, Law, Numbers, Point, Solver, TotalForm, TotalModel, UpdatedForm,
+    small_strain_body, total_body, updated_bodies,
 };
 
 /// The plane as the material sees it.
@@ -63,7 +65,7 @@ where
     let kernel = kernel::<D>(case, scheme.smoothing * case.spacing);
     let points = Point::points(&group.points);
     match scheme.march {
-        March::Total { step, calibration, alpha } => {
+        March::Total { step, calibration, alpha, kelvin_voigt } => {
             let options = TotalOptions {
                 kernel,
                 cfl: scheme.cfl,
@@ -72,7 +74,8 @@ where
             };
             let form = total_form(scheme.formulation, calibration, alpha);
             let law = law(case, body, all[index]);
-            total_body(points, (form, law), options, numbers).ok_or_else(|| {
+            let model = TotalModel { form, law, kelvin_voigt };
+            total_body(points, model, options, numbers).ok_or_else(|| {
                 let message = format!(
                     "the material `{}` does not go with {}",
                     body.material,
@@ -80,6 +83,16 @@ where
                 );
                 case.error_at(body.place, message, None)
             })
+        }
+        March::Small { normalisation, dt } => {
+            let options = TotalOptions {
+                kernel,
+                cfl: scheme.cfl,
+                wave_speed: dt.map_or(WaveSpeed::Operator, WaveSpeed::Given),
+                bulk_speed: all[index].sound_speed(),
+            };
+            let formed = (edge(normalisation), hooke(case, all[index]));
+            Ok(small_strain_body(points, formed, options, numbers))
         }
         March::Updated { stepping, reference_speed } => {
             let mine = group.bodies.iter().map(|&(i, _)| all[i].sound_speed());
@@ -91,12 +104,18 @@ where
                     Stepping::Dual => integrator::Stepping::Dual,
                     Stepping::Single => integrator::Stepping::Single,
                 },
+                ahead: 0.0,
                 reference_speed,
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
             let form = match scheme.formulation {
                 Formulation::UlNested => UpdatedForm::Nested,
+                Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+                Formulation::UlLaplacian => UpdatedForm::Laplacian,
+                Formulation::UlGeneralised => UpdatedForm::Generalised,
+                Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
+                _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,
                 _ => UpdatedForm::NonHourglass,
             };
             let stress = Hypoelastic { plane: plane(case) };
@@ -114,6 +133,31 @@ fn total_form(formulation: Formulation, calibration: Calibration, alpha: f64) ->
         (_, Calibration::Lattice) => TotalForm::HourglassFree(simulation::Calibration::Lattice),
         (_, Calibration::Paper) => TotalForm::HourglassFree(simulation::Calibration::Paper),
     }
+}
+
+/// What a small-strain body does at its edge.
+fn edge(normalisation: Normalisation) -> EdgeForm {
+    match normalisation {
+        Normalisation::Adjoint => EdgeForm::Adjoint,
+        Normalisation::Literal => EdgeForm::Literal,
+        Normalisation::None => EdgeForm::None,
+    }
+}
+
+/// The material of a small-strain body.
+fn hooke(case: &Case, moduli: Moduli) -> LinearElastic {
+    match case.plane {
+        Some(Plane::Stress) => LinearElastic::plane_stress(moduli),
+        _ => LinearElastic::solid(moduli),
+    }
+}
+
+/// The inside of a small-strain body.
+pub fn interior(case: &Case, body: &Body) -> Option<Interior> {
+    let h = body.scheme.smoothing * case.spacing;
+    let kernel = if case.dimension == 2 { kernel::<2>(case, h) } else { kernel::<3>(case, h) };
+    let material = hooke(case, moduli(case.material_of(body)?));
+    Some(Interior { material, kernel, spacing: case.spacing, dimension: case.dimension })
 }
 
 /// The material of a total Lagrangian body.

@@ -2,15 +2,18 @@
 
 use super::bodies::Group;
 use crate::Case;
-use taut::simulation::{Damping, Increments, Splitting};
+use taut::simulation::{Damping, Increments, Splitting, Viscous};
 
 /// The damping of a case.
 pub fn damping<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Option<Box<dyn Damping>> {
-    let damping = case.damping?;
-    let of = |group| damping.viscosity.unwrap_or_else(|| usual(case, group));
-    let viscosity = groups.iter().map(of).collect();
-    let (probability, seed) = (damping.probability, damping.seed);
-    Some(Box::new(Splitting { viscosity, probability, seed }))
+    match case.damping? {
+        crate::Damping::Viscous { rate } => Some(Box::new(Viscous { rate })),
+        crate::Damping::Splitting { viscosity, probability, seed } => {
+            let of = |group| viscosity.unwrap_or_else(|| usual(case, group));
+            let viscosity = groups.iter().map(of).collect();
+            Some(Box::new(Splitting { viscosity, probability, seed }))
+        }
+    }
 }
 
 /// sqrt(rho E) L / 4 with the longest side L of the particles, Pa s.

@@ -1,7 +1,7 @@
 //! The surface of bodies on a lattice: faces of particles that have no neighbour there.
 
 use super::bodies::{Group, padded};
-use crate::{Case, CaseError, Family, Fill, Load, LoadKind};
+use crate::{Case, CaseError, Fill, Load, LoadKind, March};
 use geometry::Shape;
 use std::collections::HashMap;
 
@@ -38,9 +38,8 @@ impl Surface {
                 let help = "use fill = \"lattice\", or a force with a region".to_string();
                 return Err(case.error_at(load.place, message, Some(help)));
             };
-            if matches!(load.kind, LoadKind::Pressure(_))
-                && body.scheme.formulation.family() == Family::Updated
-            {
+            let unturned = !matches!(body.scheme.march, March::Total { .. });
+            if matches!(load.kind, LoadKind::Pressure(_)) && unturned {
                 let name = body.scheme.formulation.name();
                 let message =
                     format!("`pressure` needs a total Lagrangian body, and `{}` uses {name}", body.name);

@@ -3,7 +3,7 @@
 use super::bodies::{filled, padded};
 use super::solvers;
 use crate::{Case, CaseError, Course, Family, Tool};
-use taut::contact::{Contact, Meeting, stiffness};
+use taut::contact::{Contact, Meeting, PairPenalty, stiffness};
 use taut::math::{Tensor, Vector};
 use taut::simulation::{Motion, Point, Pose, Rigid, Solver};
 
@@ -101,5 +101,12 @@ pub fn contact(case: &Case) -> Option<Contact> {
             meetings.push(Meeting { bodies: [one as u32, other as u32], stiffness, friction });
         }
     }
-    (!meetings.is_empty()).then(|| Contact::new(&meetings, case.spacing, case.dimension))
+    let pushed = |c: &crate::Contact| {
+        c.penalty.map(|[strength, reach]| PairPenalty { bodies: c.bodies.map(|b| b as u32), strength, reach })
+    };
+    let penalties: Vec<PairPenalty> = case.contacts.iter().filter_map(pushed).collect();
+    let touch = !meetings.is_empty() || !penalties.is_empty();
+    touch.then(|| {
+        Contact::new(&meetings, case.spacing, case.dimension).with_penalties(&penalties, case.spacing)
+    })
 }

@@ -50,6 +50,7 @@ impl BodyReader<'_, '_> {
         let shape = problems.keep(section.need(keys::SHAPE.name).and_then(|node| self.shapes.shape(node)));
         let fill = problems.keep(fill::read(self.scope, section.get(keys::FILL.name)));
         let velocity = problems.keep(self.velocity(section.get(keys::VELOCITY.name)));
+        let smoothing = problems.keep(self.scope.get(section, &keys::SMOOTHING));
         let own = problems.keep(section.get(keys::FORMULATION.name).map(read_formulation).transpose())?;
         Some(Body {
             name: name?.to_string(),
@@ -57,7 +58,10 @@ impl BodyReader<'_, '_> {
             shape: shape?,
             fill: fill?,
             velocity: velocity?,
-            scheme: self.schemes.of(own),
+            scheme: match smoothing? {
+                Some(smoothing) => Scheme { smoothing, ..self.schemes.of(own) },
+                None => self.schemes.of(own),
+            },
             place: section.place,
         })
     }

@@ -13,6 +13,7 @@ use super::force::Load;
 use super::load::{Boundary, Gravity, Initial};
 use super::material::Material;
 use super::measure::Measure;
+use super::mesh::MeshFile;
 use super::probe::Probe;
 use super::read;
 use super::shape::ShapeSpec;
@@ -20,7 +21,8 @@ use super::statics::{Damping, Statics};
 use super::time::{Monitor, Time};
 use super::tool::Tool;
 use crate::diagnostic::{CaseError, Diagnostic, render_warnings};
-use crate::source::{Overrides, Place, Sources};
+use crate::source::{Overrides, Place, Shelf, Sources, UsedFile};
+use output::Manifest;
 
 /// A case with everything known: numbers in SI units, names looked up, expressions compiled.
 #[derive(Debug, Clone)]
@@ -39,6 +41,8 @@ pub struct Case {
     pub spacing: f64,
     /// The kernel.
     pub kernel: Kernel,
+    /// Whether a shear stress is integrated where motion does not need one.
+    pub shear_stress: bool,
     /// Names and SI values of `[parameters]`, in the order of the file.
     pub parameters: Vec<(String, f64)>,
     /// Materials, in the order of the file.
@@ -71,6 +75,10 @@ pub struct Case {
     pub probes: Vec<Probe>,
     /// Named results.
     pub measures: Vec<Measure>,
+    /// Files of triangles that shapes are made of.
+    pub meshes: Vec<MeshFile>,
+    /// All files that the case refers to but reference curves: with the case they make the run.
+    pub files: Vec<UsedFile>,
     /// What is legal but doubtful.
     pub warnings: Vec<Diagnostic>,
     pub(super) sources: Arc<Sources>,
@@ -103,6 +111,15 @@ impl Case {
     /// Everything that is wrong with the file or the overrides, each with its place.
     pub fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, CaseError> {
         read::case(Sources::new(name, text), overrides)
+    }
+
+    /// The case of a run, with the files that it kept in `results`.
+    ///
+    /// # Errors
+    /// As [`Case::parse`]; and files that are not there any more, or not as they were.
+    pub(crate) fn again(name: &str, manifest: &Manifest, results: &Path) -> Result<Self, CaseError> {
+        let shelf = Shelf::Kept(results.to_path_buf(), manifest.files.clone());
+        read::case(Sources::new(name, &manifest.case).with(shelf), &Overrides::default())
     }
 
     /// The case file after the overrides, as TOML: what has to be kept to repeat the run.

@@ -16,10 +16,20 @@ pub enum Formulation {
     TlNested,
     /// Total Lagrangian, the nested form with Ganzenmueller's hourglass control.
     TlGanzenmueller,
+    /// Linear in the displacement, on the undeformed body.
+    SmallStrain,
     /// Updated Lagrangian, essentially free of hourglass modes.
     UlNonHourglass,
     /// Updated Lagrangian, stress from the velocity gradient (the plain nested form).
     UlNested,
+    /// Updated Lagrangian, the nested form with artificial stress.
+    UlArtificialStress,
+    /// Updated Lagrangian, shear forces from the plain Laplacian of velocity.
+    UlLaplacian,
+    /// Updated Lagrangian, the nested form with an accumulated control of hourglass modes.
+    UlGeneralised,
+    /// Updated Lagrangian, `UlNonHourglass` with a limited Riemann solver.
+    UlLowDissipation,
 }
 
 /// What the neighbours of a body refer to.
@@ -49,6 +59,11 @@ impl Words for Formulation {
             "total Lagrangian, the nested form with a penalty on zero-energy modes, of strength `alpha`; the same materials",
         ),
         (
+            "small-strain",
+            Self::SmallStrain,
+            "linear in the displacement, with neighbours of the undeformed body: for vibrations and small strains without turns; material linear-elastic",
+        ),
+        (
             "ul-non-hourglass",
             Self::UlNonHourglass,
             "updated Lagrangian, essentially free of hourglass modes, for nearly incompressible solids; material linear-elastic",
@@ -58,14 +73,30 @@ impl Words for Formulation {
             Self::UlNested,
             "updated Lagrangian, the plain nested form, which hourglasses; material linear-elastic",
         ),
+        (
+            "ul-generalised",
+            Self::UlGeneralised,
+            "updated Lagrangian, free of hourglass modes, objective, with exact moduli; dearer than ul-non-hourglass; material linear-elastic",
+        ),
+        (
+            "ul-artificial-stress",
+            Self::UlArtificialStress,
+            "updated Lagrangian, the nested form with artificial stress (Gray et al. 2001), which hourglasses too; material linear-elastic",
+        ),
+        (
+            "ul-laplacian",
+            Self::UlLaplacian,
+            "updated Lagrangian, shear forces by the plain Laplacian of velocity, which resists rotation; for comparison only; material linear-elastic",
+        ),
+        (
+            "ul-low-dissipation",
+            Self::UlLowDissipation,
+            "updated Lagrangian, ul-non-hourglass with the limited Riemann solver that its paper names, which makes plates soft; for comparison only; material linear-elastic",
+        ),
     ];
 }
 
 impl Formulation {
-    /// Names that are reserved for what is not there yet.
-    pub(crate) const LATER: &'static [&'static str] =
-        &["ul-artificial-stress", "small-strain", "ul-generalised"];
-
     /// The name in case files and on the command line.
     pub fn name(self) -> &'static str {
         word(self)
@@ -74,8 +105,15 @@ impl Formulation {
     /// Total or updated Lagrangian.
     pub fn family(self) -> Family {
         match self {
-            Self::TlHourglassFree | Self::TlNested | Self::TlGanzenmueller => Family::Total,
-            Self::UlNonHourglass | Self::UlNested => Family::Updated,
+            Self::TlHourglassFree | Self::TlNested | Self::TlGanzenmueller | Self::SmallStrain => {
+                Family::Total
+            }
+            Self::UlNonHourglass
+            | Self::UlNested
+            | Self::UlArtificialStress
+            | Self::UlLaplacian
+            | Self::UlGeneralised
+            | Self::UlLowDissipation => Family::Updated,
         }
     }
 }
@@ -85,6 +123,8 @@ impl Formulation {
 pub enum Plane {
     /// Plane strain: no stretch along the third axis, three-dimensional stress.
     Strain,
+    /// Plane stress: no stress along the third axis.
+    Stress,
     /// As the papers' two-dimensional benchmarks: the deviator is formed with 1/2, the bulk modulus is the
     /// three-dimensional one. Up to 4 per cent softer than plane strain.
     Papers,
@@ -93,6 +133,7 @@ pub enum Plane {
 impl Words for Plane {
     const WORDS: &'static [(&'static str, Self, &'static str)] = &[
         ("strain", Self::Strain, "plane strain: no stretch along the third axis"),
+        ("stress", Self::Stress, "plane stress: no stress along the third axis; for `small-strain`"),
         (
             "papers",
             Self::Papers,
@@ -149,6 +190,33 @@ impl Words for StepRule {
     const WORDS: &'static [(&'static str, Self, &'static str)] = &[
         ("stretch", Self::Stretch, "by the wave speed in the stretched material; safe at any stretch"),
         ("paper", Self::Paper, "by sqrt(K/rho) at rest, as in the total Lagrangian paper (Eq. 33)"),
+    ];
+}
+
+/// What a small-strain body does about the part of the kernel that is missing at its edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Normalisation {
+    /// Gradients and stresses are divided by the sum of the kernel of their own particle.
+    Adjoint,
+    /// Both sums of a particle are divided by its sum of the kernel.
+    Literal,
+    /// Nothing.
+    None,
+}
+
+impl Words for Normalisation {
+    const WORDS: &'static [(&'static str, Self, &'static str)] = &[
+        (
+            "adjoint",
+            Self::Adjoint,
+            "gradient and stress of a particle over its Shepard sum: momentum and energy are conserved",
+        ),
+        (
+            "literal",
+            Self::Literal,
+            "gradient and force of a particle over its Shepard sum, as the paper says: momentum is not conserved, and stresses are up to 20 % low",
+        ),
+        ("none", Self::None, "no normalisation: half of a gradient is missing at the edge"),
     ];
 }
 

@@ -15,8 +15,10 @@ use crate::written::{Node, Section, Table, Value};
 pub struct Contact {
     /// The bodies, the smaller number first; twice the same for a body that touches itself.
     pub bodies: [usize; 2],
-    /// Coefficient of friction; `None` if they pass through each other.
+    /// Coefficient of friction; `None` if they pass through each other, or push each other by a penalty.
     pub friction: Option<f64>,
+    /// Strength (N m) and reach (m) of a penalty on pairs of particles.
+    pub penalty: Option<[f64; 2]>,
     /// Its header in the case file.
     pub place: Place,
 }
@@ -33,13 +35,15 @@ pub(crate) fn read(
         section.only(keys::TABLE.keys, problems);
         let bodies = problems.keep(section.need(keys::BODIES.name).and_then(|node| pair(node, names)));
         let friction = problems.keep(friction(section, scope));
-        let (Some(bodies), Some(friction)) = (bodies, friction) else { continue };
+        let penalty = problems.keep(penalty(section, scope));
+        let (Some(bodies), Some(friction), Some(penalty)) = (bodies, friction, penalty) else { continue };
+        let friction = friction.filter(|_| penalty.is_none());
         if all.iter().any(|other| other.bodies == bodies) {
             problems
                 .0
                 .push(Diagnostic::at(section.place, "these bodies meet in another [[contact]] already"));
         }
-        all.push(Contact { bodies, friction, place: section.place });
+        all.push(Contact { bodies, friction, penalty, place: section.place });
     }
     all
 }
@@ -54,7 +58,7 @@ pub(crate) fn refuse_statics(
     let said = |one, other| contacts.iter().find(|contact| contact.bodies == [one, other]);
     let pairs = (0..bodies + tools).flat_map(|other| (0..=other).map(move |one| (one, other)));
     let touch = |&(one, other): &(usize, usize)| match said(one, other) {
-        Some(contact) => contact.friction.is_some(),
+        Some(contact) => contact.friction.is_some() || contact.penalty.is_some(),
         None => one != other && one < bodies,
     };
     if pairs.into_iter().any(|pair| touch(&pair)) {
@@ -100,6 +104,29 @@ fn friction(section: &Section<'_>, scope: &Scope) -> Result<Option<f64>, Diagnos
     }
 }
 
+/// Strength and reach of a penalty, which come together and exclude everything else.
+fn penalty(section: &Section<'_>, scope: &Scope) -> Result<Option<[f64; 2]>, Diagnostic> {
+    let (strength, reach) = (scope.get(section, &keys::PENALTY)?, scope.get(section, &keys::REACH)?);
+    let place = |key: &str| section.get(key).map_or(section.place, |node| node.place);
+    match (strength, reach) {
+        (None, None) => Ok(None),
+        (Some(_), None) => Err(Diagnostic::at(place(keys::PENALTY.name), "a `penalty` needs its `reach`")
+            .help("for example reach = \"2*dp\": the distance from which on particles push each other")),
+        (None, Some(_)) => Err(Diagnostic::at(place(keys::REACH.name), "`reach` belongs to a `penalty`")),
+        (Some(strength), Some(reach)) => {
+            let other = section.get(keys::FRICTION.name).or_else(|| section.get(keys::IGNORE.name));
+            match other {
+                Some(node) => Err(Diagnostic::at(
+                    node.place,
+                    "a contact by `penalty` has no friction, and is none that is ignored",
+                )
+                .help("give either `penalty` and `reach`, or `friction`, or `ignore`")),
+                None => Ok(Some([strength, reach])),
+            }
+        }
+    }
+}
+
 /// Refuses meetings that contact cannot arrange.
 pub(crate) fn check(contacts: &[Contact], bodies: &[Body], tools: &[Tool], problems: &mut Problems) {
     let updated = |i: usize| bodies.get(i).is_some_and(|b| b.scheme.formulation.family() == Family::Updated);
@@ -114,6 +141,8 @@ pub(crate) fn check(contacts: &[Contact], bodies: &[Body], tools: &[Tool], probl
             format!("`{}` is rigid: it cannot touch itself", name(one))
         } else if rigid(one) && rigid(other) {
             format!("`{}` and `{}` are rigid: there is no force between them", name(one), name(other))
+        } else if one == other && contact.penalty.is_some() {
+            format!("`{}` cannot push itself by a penalty, which acts between two bodies", name(one))
         } else if updated(one) && one == other {
             format!("`{}` is updated Lagrangian: it touches itself by its own pairs", name(one))
         } else if updated(one) && updated(other) {

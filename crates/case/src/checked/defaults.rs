@@ -1,6 +1,6 @@
 //! What a case means when it does not say: every default, and why it is so.
 
-use super::choices::{Calibration, Family, Formulation, Kernel, Plane, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, Kernel, Normalisation, Plane, StepRule, Stepping};
 
 /// Total Lagrangian: cheapest for elastic solids, and free of tensile instability; this one is free of
 /// hourglass modes as well.
@@ -22,18 +22,20 @@ pub(crate) fn smoothing(formulation: Formulation) -> f64 {
     }
 }
 
-/// The largest stable fraction that the papers use: 0.6 total Lagrangian, 0.4 for acoustic steps.
+/// The largest stable fraction that the papers use: 0.6 total Lagrangian, 0.4 for acoustic steps. Of small strain the bound is the limit of
+/// stability itself, which a linear body never leaves.
 pub(crate) fn cfl(formulation: Formulation) -> f64 {
     match formulation.family() {
+        Family::Total if formulation == Formulation::SmallStrain => 0.8,
         Family::Total => 0.6,
         Family::Updated => 0.4,
     }
 }
 
-/// Dual where frozen neighbours do no harm (1.7 times faster); the nested form tears when they are frozen.
+/// Dual where frozen neighbours do no harm (1.7 times faster); the nested forms tear when they are frozen.
 pub(crate) fn stepping(formulation: Formulation) -> Stepping {
     match formulation {
-        Formulation::UlNested => Stepping::Single,
+        Formulation::UlNested | Formulation::UlArtificialStress => Stepping::Single,
         _ => Stepping::Dual,
     }
 }
@@ -47,8 +49,14 @@ pub(crate) const REFERENCE_SPEED: f64 = 0.0;
 /// The strength of Ganzenmueller's control that tames the paper's cases.
 pub(crate) const ALPHA: f64 = 10.0;
 
+/// The damping of the paper.
+pub(crate) const KELVIN_VOIGT: f64 = 1.0;
+
 /// What the paper's figures were made with.
 pub(crate) const CALIBRATION: Calibration = Calibration::Paper;
+
+/// The one that conserves momentum and energy.
+pub(crate) const NORMALISATION: Normalisation = Normalisation::Adjoint;
 
 /// Share of the steps in which splitting damping acts: the paper's method with what worked in trials.
 pub(crate) const PROBABILITY: f64 = 0.2;
@@ -68,15 +76,15 @@ pub(crate) const MAX_STEPS: u64 = 100_000;
 /// Frames of a run, when no interval is given: enough for a smooth film of moderate size.
 pub(crate) const FRAMES: f64 = 50.0;
 
-/// Steps from one of these frames to the next, at least, since a frame and a look at the energies cost as much as eight or nine steps (docs/performance.md).
+/// Steps from one of these frames to the next, at least, since a frame costs as much as two to five steps, uncompressed or not (docs/performance.md).
 pub(crate) const FRAME_STEPS: u64 = 500;
 
 /// But so many frames there are even in a short run.
 pub(crate) const FEWEST_FRAMES: f64 = 5.0;
 
-/// Time steps between two measurements of disorder, when no interval is given: one costs as much as 2.4 (updated Lagrangian, plane) to 5.7 (total Lagrangian, space)
-/// steps in counted instructions, so that all together stay below 1 per cent of the run.
-pub(crate) const DISORDER_STEPS: u64 = 600;
+/// Time steps between two measurements of disorder, when no interval is given: one costs as much as two to eight
+/// steps, so that all together stay below 1 per cent of the run.
+pub(crate) const DISORDER_STEPS: u64 = 1000;
 
 /// Seconds between two samples of a probe; 0 is every step, so that no turning point is missed.
 pub(crate) const PROBE_INTERVAL: f64 = 0.0;
@@ -113,7 +121,11 @@ mod tests {
             format!("{} total Lagrangian, {} updated Lagrangian", of(total), of(updated))
         };
         assert_eq!(said(&case::SMOOTHING), both(smoothing));
-        assert_eq!(said(&time::CFL), both(cfl));
+        assert_eq!(
+            said(&time::CFL),
+            format!("{}; {} for small-strain", both(cfl), cfl(Formulation::SmallStrain))
+        );
+        assert_eq!(said(&case::NORMALISATION), word(NORMALISATION));
         assert_eq!(said(&case::FORMULATION), word(FORMULATION));
         assert_eq!(said(&case::PLANE), format!("{}, in 2D", word(PLANE)));
         assert_eq!(said(&case::KERNEL), word(KERNEL));
@@ -125,6 +137,7 @@ mod tests {
         assert_eq!(said(&quasi_static::TOLERANCE), TOLERANCE.to_string());
         assert_eq!(said(&quasi_static::MAX_STEPS), MAX_STEPS.to_string());
         assert_eq!(said(&case::ALPHA), ALPHA.to_string());
+        assert_eq!(said(&case::KELVIN_VOIGT), KELVIN_VOIGT.to_string());
         assert_eq!(said(&case::CALIBRATION), word(CALIBRATION));
         assert_eq!(
             said(&time::OUTPUT),
@@ -138,8 +151,14 @@ mod tests {
         {
             assert_eq!(said(key), value.to_string());
         }
-        let nested = Formulation::UlNested;
-        let stepped = format!("{}; {} for ul-nested", word(stepping(updated)), word(stepping(nested)));
+        let nested = [Formulation::UlNested, Formulation::UlArtificialStress];
+        let stepped = format!(
+            "{}; {} for {}",
+            word(stepping(updated)),
+            word(stepping(nested[0])),
+            nested.map(word).join(" and ")
+        );
+        assert!(nested.iter().all(|&form| stepping(form) == stepping(nested[0])));
         assert_eq!(said(&case::STEPPING), stepped);
     }
 }

@@ -5,9 +5,12 @@ use std::sync::Arc;
 
 use super::scope::Scope;
 use crate::diagnostic::Diagnostic;
-use crate::keys::fill;
+use crate::keys::{Key, fill};
 use crate::written::{Node, Section, Value};
 use output::FrameFile;
+
+/// Larger files are not read, bytes.
+const LARGEST: u64 = 8 << 30;
 
 /// How particles fill a shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +22,13 @@ pub enum Fill {
     },
     /// Layers around the centre of a ring or ball.
     Concentric,
+    /// Layers with as many particles each.
+    Polar {
+        /// How many.
+        around: u32,
+        /// How many layers; `None` for the wall over the spacing.
+        rings: Option<u32>,
+    },
     /// Fitted to the surface.
     Fitted,
     /// As they stand in a file.
@@ -45,14 +55,15 @@ pub(super) fn read(scope: &Scope, node: Option<&Node>) -> Result<Fill, Diagnosti
         Value::Text(name) if name == fill::FITTED => Ok(Fill::Fitted),
         Value::Table(_) => {
             let table = Section::of(node, "`fill`")?;
-            table.only_first(&[fill::LATTICE, fill::PARTICLES])?;
-            match table.get(fill::PARTICLES) {
-                Some(file) => saved(scope, file),
-                None => lattice(scope, table.need(fill::LATTICE)?),
+            table.only_first(&[fill::LATTICE, fill::POLAR, fill::PARTICLES])?;
+            match (table.get(fill::PARTICLES), table.get(fill::POLAR)) {
+                (Some(file), _) => saved(scope, file),
+                (None, Some(node)) => polar(scope, &Section::of(node, "the fill `polar`")?),
+                (None, None) => lattice(scope, table.need(fill::LATTICE)?),
             }
         }
         _ => Err(Diagnostic::at(node.place, format!("unknown fill, found {}", node.found())).help(
-            "write \"lattice\", \"concentric\", \"fitted\", { lattice = { origin = [..] } } or { particles = \"FILE.vtp\" }",
+            "write \"lattice\", \"concentric\", \"fitted\", { lattice = { origin = [..] } }, { polar = { around = 36 } } or { particles = \"FILE.vtp\" }",
         )),
     }
 }
@@ -64,24 +75,44 @@ fn lattice(scope: &Scope, node: &Node) -> Result<Fill, Diagnostic> {
     Ok(Fill::Lattice { origin })
 }
 
+/// As many particles in each layer: whole numbers, or expressions that give them.
+fn polar(scope: &Scope, section: &Section<'_>) -> Result<Fill, Diagnostic> {
+    section.only_first(&[fill::AROUND.name, fill::RINGS.name])?;
+    let around = whole(scope, section.need(fill::AROUND.name)?, (&fill::AROUND, 3))?;
+    let rings =
+        section.get(fill::RINGS.name).map(|node| whole(scope, node, (&fill::RINGS, 1))).transpose()?;
+    Ok(Fill::Polar { around, rings })
+}
+
+fn whole(scope: &Scope, node: &Node, (key, least): (&Key, u32)) -> Result<u32, Diagnostic> {
+    let number = scope.of(node, key)?;
+    if number.fract() == 0.0 && (f64::from(least)..=1e6).contains(&number) {
+        return Ok(number as u32);
+    }
+    let message =
+        format!("`{}` has to be a whole number from {least} to a million, found {number}", key.name);
+    Err(Diagnostic::at(node.place, message))
+}
+
 fn saved(scope: &Scope, node: &Node) -> Result<Fill, Diagnostic> {
     let Value::Text(file) = &node.value else {
         let message = format!("`particles` has to be the name of a file, found {}", node.found());
         return Err(Diagnostic::at(node.place, message).help("`taut particles CASE -o FILE.vtp` writes one"));
     };
-    let path = scope.folder.join(file);
+    let path = scope.files.path(file);
     let wrong = |problem: String| {
         Diagnostic::at(node.place, format!("cannot use the particles of {}: {problem}", path.display())).help(
             "`taut particles CASE -o FILE.vtp` writes such a file; its path is relative to the case file",
         )
     };
-    let (spacing, points) = stored(&path).map_err(wrong)?;
+    let bytes = scope.files.read(file, LARGEST).map_err(wrong)?;
+    let (spacing, points) = stored(&path, bytes).map_err(wrong)?;
     Ok(Fill::Saved(Arc::new(Saved { file: file.clone(), spacing, points })))
 }
 
 /// Spacing, positions and volumes of the particles of a file.
-fn stored(path: &Path) -> Result<(f64, Vec<([f64; 3], f64)>), String> {
-    let file = FrameFile::open(path).map_err(|error| error.to_string())?;
+fn stored(path: &Path, bytes: Vec<u8>) -> Result<(f64, Vec<([f64; 3], f64)>), String> {
+    let file = FrameFile::of(path, bytes).map_err(|error| error.to_string())?;
     let frame = file
         .frame(|name| ["Volume", "ParticleSpacing"].contains(&name))
         .map_err(|error| error.to_string())?;

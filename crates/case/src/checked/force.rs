@@ -54,6 +54,16 @@ impl LoadKind {
         }
     }
 
+    /// So many times it.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        match self {
+            Self::Force(field) => Self::Force(field.times(factor)),
+            Self::Traction(field) => Self::Traction(field.times(factor)),
+            Self::Pressure(field) => Self::Pressure(field.times(factor)),
+        }
+    }
+
     fn fields(&self) -> &[FieldExpression] {
         match self {
             Self::Force(field) | Self::Traction(field) => &field.components,

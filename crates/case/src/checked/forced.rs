@@ -31,6 +31,16 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
     if formulation.is_some_and(|f| f != Formulation::TlHourglassFree) {
         root.remove("calibration");
     }
+    if formulation.is_some_and(|f| f != Formulation::SmallStrain) {
+        root.remove("normalisation");
+    }
+    if let Some(Value::Table(time)) = root.get_mut("time").map(|node| &mut node.value) {
+        match formulation {
+            Some(Formulation::SmallStrain) => time.remove("step"),
+            Some(_) => time.remove("dt"),
+            None => {}
+        }
+    }
     match formulation.map(Formulation::family) {
         Some(Family::Total) => {
             root.remove("stepping");
@@ -40,6 +50,7 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
             if let Some(Value::Table(time)) = root.get_mut("time").map(|node| &mut node.value) {
                 time.remove("step");
             }
+            root.remove("kelvin_voigt");
         }
         None => {}
     }

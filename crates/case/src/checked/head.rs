@@ -54,12 +54,5 @@ fn plane(node: Option<&Node>, dimension: usize) -> Result<Option<Plane>, Diagnos
         return Err(Diagnostic::at(node.place, "`plane` says what 2D means, and the case has dimension = 3")
             .help("remove it"));
     }
-    if matches!(&node.value, Value::Text(text) if text == "stress") {
-        return Err(Diagnostic::at(
-            node.place,
-            "plane stress is planned for small strain, but not in this version",
-        )
-        .help("there are \"strain\" and \"papers\""));
-    }
     choice(node, keys::PLANE.name, Plane::WORDS).map(Some)
 }

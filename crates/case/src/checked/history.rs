@@ -4,6 +4,7 @@ use super::scope::Scope;
 use crate::diagnostic::Diagnostic;
 use crate::units::Dimension;
 use crate::written::{Node, Value};
+use output::limited::LONGEST_TEXT;
 
 /// A number over time, linear between its points.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,10 +71,11 @@ fn list(scope: &Scope, rows: &[Node]) -> Result<History, Diagnostic> {
 
 /// A table of two columns; lines that begin with `#`, empty ones, and a first line of names are passed over.
 fn file(scope: &Scope, node: &Node, name: &str) -> Result<History, Diagnostic> {
-    let path = scope.folder.join(name);
+    let path = scope.files.path(name);
     let wrong = |problem: String| Diagnostic::at(node.place, problem);
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| wrong(format!("cannot read the history {}: {error}", path.display())))?;
+    let unread = |reason: String| wrong(format!("cannot read the history {}: {reason}", path.display()));
+    let bytes = scope.files.read(name, LONGEST_TEXT).map_err(unread)?;
+    let text = String::from_utf8(bytes).map_err(|error| unread(error.to_string()))?;
     let mut points = Vec::new();
     let mut lines = Vec::new();
     for (index, line) in text.lines().enumerate() {

@@ -1,16 +1,18 @@
 //! `[[measure]]`: named results.
 
 use super::choices::{Axis, word};
+use super::compare::Comparison;
 use super::names::{find, part_name};
 use super::probe::{Probe, Quantity};
 use super::scope::Scope;
+use super::shape_reader::ShapeReader;
 use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::{Key, Words, measure as keys};
 use crate::units::Dimension;
 use crate::written::{Section, Value, choice};
 
 /// A named result of the run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Measure {
     /// Its name under `measured`.
     pub name: String,
@@ -19,7 +21,7 @@ pub struct Measure {
 }
 
 /// What a measure is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum MeasureKind {
     /// Something about one component of a probe over time.
     Probe {
@@ -41,6 +43,8 @@ pub enum MeasureKind {
         /// What about them.
         feature: Feature,
     },
+    /// A field at the end.
+    Field(Box<Comparison>),
     /// Kinetic energy at the end over that at the start.
     KineticRatio,
     /// Time of the first contact of two bodies, s.
@@ -77,6 +81,8 @@ pub enum Feature {
         /// Which of them, counted from 1.
         index: usize,
     },
+    /// Frequency of the highest peak of its spectrum, Hz.
+    Frequency,
     /// For how long it is larger than half of its largest value, s: of a blow.
     Duration,
     /// The value at a time, s.
@@ -117,6 +123,11 @@ pub(crate) enum Measured {
     ContactStart,
     ReboundSpeed,
     VolumeRatio,
+    ErrorMax,
+    ErrorRms,
+    Ratio,
+    Largest,
+    Frequency,
 }
 
 impl Words for Measured {
@@ -147,6 +158,19 @@ impl Words for Measured {
         ("contact-start", Self::ContactStart, "time of the first contact of two bodies"),
         ("rebound-speed", Self::ReboundSpeed, "speed of the centre of mass of a body at the end"),
         ("volume-ratio", Self::VolumeRatio, "volume of a body (in 2D its area) at the end over that at rest"),
+        (
+            "error-max",
+            Self::ErrorMax,
+            "largest difference of a field, at the end, from what it should be, over the largest that it should be",
+        ),
+        ("error-rms", Self::ErrorRms, "root mean square of that difference, over the same"),
+        ("ratio", Self::Ratio, "mean of a field at the end over what it should be"),
+        ("largest", Self::Largest, "largest value of a field at the end"),
+        (
+            "frequency",
+            Self::Frequency,
+            "frequency of the highest peak of its spectrum (Hann's window over the whole run): right to half of 1/T",
+        ),
     ];
 }
 
@@ -157,15 +181,20 @@ impl Measured {
         const TURNING: &[Key] =
             &[keys::PROBE, keys::COMPONENT, keys::EXTREMUM, keys::PROMINENCE, keys::INDEX];
         match self {
-            Self::SecondCrossing | Self::FirstCrossing | Self::Maximum | Self::Minimum | Self::Duration => {
-                CURVE
-            }
+            Self::SecondCrossing
+            | Self::FirstCrossing
+            | Self::Maximum
+            | Self::Minimum
+            | Self::Frequency
+            | Self::Duration => CURVE,
             Self::TurningPoints => TURNING,
             Self::ValueAt => const { &[keys::PROBE, keys::COMPONENT, keys::TIME] },
             Self::MostTurns | Self::LeastTurns => const { &[keys::PROBE, keys::AXIS] },
             Self::TurnsAt => const { &[keys::PROBE, keys::AXIS, keys::TIME] },
             Self::KineticRatio | Self::ContactStart => &[],
             Self::ReboundSpeed | Self::VolumeRatio => const { &[keys::BODY] },
+            Self::ErrorMax | Self::ErrorRms | Self::Ratio => &[],
+            Self::Largest => const { &[keys::FIELD] },
         }
     }
 
@@ -173,6 +202,10 @@ impl Measured {
     pub(crate) fn more(self) -> &'static [Key] {
         match self {
             Self::Maximum | Self::Minimum | Self::TurningPoints | Self::ValueAt => const { &[keys::OVER] },
+            Self::ErrorMax | Self::ErrorRms | Self::Ratio => {
+                const { &[keys::DISPLACEMENT, keys::VON_MISES, keys::BODY, keys::REGION, keys::ALIGNED] }
+            }
+            Self::Largest => const { &[keys::BODY, keys::REGION] },
             _ => &[],
         }
     }
@@ -190,7 +223,11 @@ pub(crate) struct MeasureReader<'a> {
 
 impl MeasureReader<'_> {
     /// One measure.
-    pub(crate) fn read(&self, section: &Section<'_>, problems: &mut Problems) -> Option<Measure> {
+    pub(crate) fn read(
+        &self,
+        section: &Section<'_>,
+        (shapes, problems): (&mut ShapeReader<'_>, &mut Problems),
+    ) -> Option<Measure> {
         let name = problems.keep(part_name(section));
         let kind = section.need(keys::KIND.name);
         let kind = problems.keep(kind.and_then(|node| choice(node, keys::KIND.name, Measured::WORDS)))?;
@@ -198,7 +235,12 @@ impl MeasureReader<'_> {
         let titled = Section { title, ..section.clone() };
         let allowed: Vec<Key> = [&[keys::NAME, keys::KIND], kind.keys(), kind.more()].concat();
         titled.only(&allowed, problems);
-        let kind = problems.keep(self.kind(kind, &titled));
+        let kind = match kind {
+            Measured::ErrorMax | Measured::ErrorRms | Measured::Ratio | Measured::Largest => problems.keep(
+                self.comparison(kind, &titled, shapes).map(|field| MeasureKind::Field(Box::new(field))),
+            ),
+            _ => problems.keep(self.kind(kind, &titled)),
+        };
         Some(Measure { name: name?.to_string(), kind: kind? })
     }
 
@@ -246,6 +288,7 @@ impl MeasureReader<'_> {
             Measured::SecondCrossing => Feature::SecondCrossing,
             Measured::Maximum => Feature::Maximum,
             Measured::Minimum => Feature::Minimum,
+            Measured::Frequency => Feature::Frequency,
             Measured::Duration => Feature::Duration,
             Measured::ValueAt => Feature::ValueAt { time: self.scope.need(section, &keys::TIME)? },
             _ => self.turning_point(probe, section)?,

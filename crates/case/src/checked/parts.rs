@@ -17,6 +17,7 @@ use super::shape::ShapeSpec;
 use super::shape_reader::ShapeReader;
 use super::tool::{self, Tool};
 use crate::diagnostic::{Diagnostic, Problems};
+use crate::keys::case;
 use crate::source::Place;
 use crate::written::{Section, Table, Value, list};
 
@@ -34,6 +35,7 @@ pub(super) struct Parts {
     pub loads: Vec<Load>,
     pub probes: Vec<Probe>,
     pub measures: Vec<Measure>,
+    pub shear_stress: bool,
 }
 
 impl Parts {
@@ -42,6 +44,8 @@ impl Parts {
         let mut warnings = plausible::materials(root, &self.materials);
         warnings.extend(plausible::angles(root));
         warnings.extend(compatible::warnings(&self.bodies, &self.materials, plane));
+        let stepping = root.get(case::STEPPING.name);
+        warnings.extend(stepping.and_then(|node| compatible::frozen(&self.bodies, node.place)));
         warnings
     }
 }
@@ -88,6 +92,7 @@ pub(super) fn parts(root: &Table, scope: &Scope, problems: &mut Problems) -> Par
         loads: forces,
         probes,
         measures,
+        shear_stress: schemes.shear_stress(),
     }
 }
 
@@ -147,10 +152,11 @@ fn records<'a>(
 ) -> (Vec<Probe>, Vec<Measure>) {
     let scope = shapes.scope;
     let (sections, names) = named_list(root, "probe", problems);
-    let mut reader = ProbeReader { shapes, bodies, boundaries, touching };
+    let mut reader = ProbeReader { shapes: &mut *shapes, bodies, boundaries, touching };
     let probes: Vec<Probe> = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
     let (sections, _) = named_list(root, "measure", problems);
     let reader = MeasureReader { scope, bodies, probes: &names, checked: &probes };
-    let measures = sections.iter().filter_map(|section| reader.read(section, problems)).collect();
+    let measures =
+        sections.iter().filter_map(|section| reader.read(section, (&mut *shapes, &mut *problems))).collect();
     (probes, measures)
 }

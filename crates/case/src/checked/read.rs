@@ -7,7 +7,7 @@ use super::forced::force;
 use super::head::{Head, head};
 use super::parts::parts;
 use super::scope::Scope;
-use super::{contact, parameters, statics, time};
+use super::{compatible, contact, parameters, statics, time};
 use crate::diagnostic::{CaseError, Problems};
 use crate::keys::case as keys;
 use crate::source::{Overrides, Place, Sources, apply};
@@ -49,13 +49,15 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     top.only(keys::TABLE.keys, problems);
     let Head { name, title, dimension, plane, kernel } = head(&top, problems)?;
     let before = problems.0.len();
-    let scope = Scope { folder: sources.folder(), ..parameters::read(root, dimension, problems) };
+    let scope = Scope { files: sources.files(), ..parameters::read(root, dimension, problems) };
     if problems.0.len() > before {
         return None;
     }
     let spacing = problems.keep(scope.need(&top, &keys::SPACING));
     let times = time::read(root, &scope, problems);
     let parts = parts(root, &scope, problems);
+    let named = top.get(keys::PLANE.name).map_or(Place::START, |node| node.place);
+    compatible::planes(&parts.bodies, (plane, named), problems);
     let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
     contact::refuse_statics(root, (&parts.contacts, parts.bodies.len(), parts.tools.len()), problems);
     let (time, monitor) = times?;
@@ -67,8 +69,9 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         formulation: parts.formulation,
         spacing: spacing?,
         kernel,
+        shear_stress: parts.shear_stress,
         parameters: scope.parameters,
-        warnings: parts.warnings(root, plane),
+        warnings: [scope.meshes.doubts(), parts.warnings(root, plane)].concat(),
         materials: parts.materials,
         regions: parts.regions,
         bodies: parts.bodies,
@@ -84,6 +87,8 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
         monitor,
         probes: parts.probes,
         measures: parts.measures,
+        meshes: scope.meshes.all(),
+        files: scope.files.used(),
         sources: Arc::clone(sources),
         as_run,
     })

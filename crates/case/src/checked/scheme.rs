@@ -1,9 +1,10 @@
 //! How each body is marched in time: the formulation and what depends on it.
 
 use super::body::Body;
-use super::choices::{Calibration, Family, Formulation, StepRule, Stepping};
+use super::choices::{Calibration, Family, Formulation, Normalisation, StepRule, Stepping};
 use super::defaults;
 use super::scope::Scope;
+use super::time::flag;
 use crate::diagnostic::{Diagnostic, Problems, did_you_mean};
 use crate::keys::{Words, case, time};
 use crate::source::Place;
@@ -33,6 +34,15 @@ pub enum March {
         calibration: Calibration,
         /// Strength of Ganzenmueller's hourglass control.
         alpha: f64,
+        /// Factor of the Kelvin-Voigt damping.
+        kelvin_voigt: f64,
+    },
+    /// Small strain.
+    Small {
+        /// What is done at the edge.
+        normalisation: Normalisation,
+        /// The time step, s; `None` for the stable one.
+        dt: Option<f64>,
     },
     /// Updated Lagrangian.
     Updated {
@@ -57,6 +67,10 @@ pub(crate) struct Schemes {
     reference_speed: Option<(f64, Place)>,
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
+    kelvin_voigt: Option<(f64, Place)>,
+    shear_stress: Option<(bool, Place)>,
+    normalisation: Option<(Normalisation, Place)>,
+    dt: Option<(f64, Place)>,
 }
 
 impl Schemes {
@@ -88,17 +102,37 @@ impl Schemes {
                 choice(n, case::CALIBRATION.name, Calibration::WORDS)
             }),
             alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
+            kelvin_voigt: optional(root.get(case::KELVIN_VOIGT.name), problems, |n| {
+                scope.of(n, &case::KELVIN_VOIGT)
+            }),
+            shear_stress: optional(root.get(case::SHEAR_STRESS.name), problems, |n| {
+                flag(n, &case::SHEAR_STRESS)
+            }),
+            normalisation: optional(root.get(case::NORMALISATION.name), problems, |n| {
+                choice(n, case::NORMALISATION.name, Normalisation::WORDS)
+            }),
+            dt: optional(of_time(time::DT.name), problems, |n| scope.of(n, &time::DT)),
         }
+    }
+
+    /// Whether a shear stress is integrated that is only to be looked at.
+    pub(crate) fn shear_stress(&self) -> bool {
+        self.shear_stress.is_none_or(|(wanted, _)| wanted)
     }
 
     /// The scheme of a body with its own formulation (or none).
     pub(crate) fn of(&self, own: Option<Formulation>) -> Scheme {
         let formulation = own.unwrap_or(self.formulation);
         let march = match formulation.family() {
+            Family::Total if formulation == Formulation::SmallStrain => March::Small {
+                normalisation: self.normalisation.map_or(defaults::NORMALISATION, |(n, _)| n),
+                dt: self.dt.map(|(dt, _)| dt),
+            },
             Family::Total => March::Total {
                 step: self.step.map_or(defaults::STEP, |(step, _)| step),
                 calibration: self.calibration.map_or(defaults::CALIBRATION, |(calibration, _)| calibration),
                 alpha: self.alpha.map_or(defaults::ALPHA, |(alpha, _)| alpha),
+                kelvin_voigt: self.kelvin_voigt.map_or(defaults::KELVIN_VOIGT, |(factor, _)| factor),
             },
             Family::Updated => March::Updated {
                 stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
@@ -117,8 +151,11 @@ impl Schemes {
     pub(crate) fn refuse_useless(&self, bodies: &[Body], problems: &mut Problems) {
         let used = |family| bodies.iter().any(|body| body.scheme.formulation.family() == family);
         let one_only = [
+            ("shear_stress", self.shear_stress.map(|(_, place)| place), Formulation::UlNonHourglass),
             ("alpha", self.alpha.map(|(_, place)| place), Formulation::TlGanzenmueller),
             ("calibration", self.calibration.map(|(_, place)| place), Formulation::TlHourglassFree),
+            ("normalisation", self.normalisation.map(|(_, place)| place), Formulation::SmallStrain),
+            ("dt", self.dt.map(|(_, place)| place), Formulation::SmallStrain),
         ];
         for (key, place, formulation) in one_only {
             let used = bodies.iter().any(|body| body.scheme.formulation == formulation);
@@ -135,8 +172,15 @@ impl Schemes {
                 problems.0.push(useless(key, "updated Lagrangian formulations (ul-*)", place));
             }
         }
-        if let Some((_, place)) = self.step.filter(|_| !used(Family::Total)) {
-            problems.0.push(useless("step", "total Lagrangian formulations (tl-*)", place));
+        let steps = |body: &Body| matches!(body.scheme.march, March::Total { .. });
+        let total_only = [
+            ("step", self.step.map(|(_, place)| place)),
+            ("kelvin_voigt", self.kelvin_voigt.map(|(_, place)| place)),
+        ];
+        for (key, place) in total_only {
+            if let Some(place) = place.filter(|_| !bodies.iter().any(steps)) {
+                problems.0.push(useless(key, "total Lagrangian formulations (tl-*)", place));
+            }
         }
     }
 }
@@ -160,13 +204,5 @@ pub(crate) fn read_formulation(node: &Node) -> Result<Formulation, Diagnostic> {
         return Ok(*formulation);
     }
     let names = Formulation::WORDS.iter().map(|(n, ..)| *n);
-    if Formulation::LATER.contains(&name) {
-        let names: Vec<&str> = names.collect();
-        return Err(Diagnostic::at(
-            place,
-            format!("the formulation `{name}` is planned, but not in this version"),
-        )
-        .help(format!("there are {}", names.join(", "))));
-    }
     Err(Diagnostic::at(place, format!("unknown formulation `{name}`")).help(did_you_mean(name, names)))
 }

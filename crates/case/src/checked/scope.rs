@@ -1,10 +1,11 @@
 //! Turning what is written into numbers: plain, with a unit, or an expression of the parameters.
 
 use super::field::{FieldExpression, VectorField};
+use super::mesh::Meshes;
 use crate::diagnostic::Diagnostic;
 use crate::expression::{Expression, ExpressionError, Names};
 use crate::keys::{Key, Kind, Range};
-use crate::source::Place;
+use crate::source::{Files, Place};
 use crate::units::{Dimension, Quantity};
 use crate::written::{Node, Section, Value};
 
@@ -15,8 +16,10 @@ pub(crate) struct Scope {
     pub dimension: usize,
     /// Names and SI values, in the order of the file.
     pub parameters: Vec<(String, f64)>,
-    /// The folder of the case file.
-    pub folder: std::path::PathBuf,
+    /// The files that the case refers to.
+    pub files: Files,
+    /// Those of them that are meshes.
+    pub meshes: Meshes,
     /// For parameters that were given with a unit: what they are.
     pub units: Vec<(String, Quantity)>,
 }

@@ -1,5 +1,7 @@
 //! Shapes with all numbers resolved.
 
+use geometry::Mesh;
+
 /// A shape, in metres and radians. Points have three coordinates; the third is 0 in 2D and has no meaning there.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShapeSpec {
@@ -44,6 +46,13 @@ pub enum ShapeSpec {
     },
     /// 3D: a tube cut into cells.
     Stent(geometry::Stent),
+    /// 3D: what the triangles of a file enclose.
+    Mesh {
+        /// The path, as the case says it.
+        file: String,
+        /// The body, in metres.
+        mesh: Mesh,
+    },
     /// Points in any of the shapes.
     Union(Vec<ShapeSpec>),
     /// Points in all of the shapes.

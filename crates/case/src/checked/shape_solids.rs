@@ -1,5 +1,6 @@
 //! Reading the shapes that are not made of others.
 
+use super::mesh::mesh;
 use super::scope::Scope;
 use super::shape::ShapeSpec;
 use crate::diagnostic::Diagnostic;
@@ -22,6 +23,8 @@ pub(super) fn solid(
         ("ring", _) | ("hollow-ball", 3) => shell(scope, section),
         ("hollow-ball", _) => Err(only_3d(place, kind).help("in 2D it is called `ring`")),
         ("cylinder", 3) => cylinder(scope, section),
+        ("mesh", 3) => mesh(scope, section),
+        ("mesh", _) => Err(only_3d(place, kind).help("in 2D draw its section as a `polygon`")),
         ("cylinder", _) => Err(only_3d(place, kind).help("its cross-section in 2D is a `ball` or a `box`")),
         ("stent", 3) => stent(scope, section),
         ("stent", _) => Err(only_3d(place, kind)),

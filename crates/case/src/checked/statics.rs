@@ -8,15 +8,23 @@ use crate::diagnostic::{Diagnostic, Problems};
 use crate::keys::{Key, damping, quasi_static};
 use crate::written::{Section, Table, Value};
 
-/// Damping of all motion, by the splitting random-choice method.
+/// Damping of all motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Damping {
-    /// Viscosity, Pa s; `None` for sqrt(rho E) L / 4 of each body.
-    pub viscosity: Option<f64>,
-    /// Share of the steps in which it acts.
-    pub probability: f64,
-    /// Which random choice.
-    pub seed: u64,
+pub enum Damping {
+    /// By the splitting random-choice method.
+    Splitting {
+        /// Viscosity, Pa s; `None` for sqrt(rho E) L / 4 of each body.
+        viscosity: Option<f64>,
+        /// Share of the steps in which it acts.
+        probability: f64,
+        /// Which random choice.
+        seed: u64,
+    },
+    /// By a force against the velocity.
+    Viscous {
+        /// Over the momentum, 1/s.
+        rate: f64,
+    },
 }
 
 /// Loads in increments, each held until the bodies are at rest.
@@ -38,12 +46,22 @@ pub(crate) fn read(
 ) -> (Option<Damping>, Option<Statics>) {
     let damping = section(root, damping::TABLE.header, bodies, problems).and_then(|section| {
         section.only(damping::TABLE.keys, problems);
+        if let Some(node) = section.get(damping::RATE.name) {
+            for other in [damping::VISCOSITY, damping::PROBABILITY, damping::SEED] {
+                if let Some(other) = section.get(other.name) {
+                    let message = "`rate` is another damping than that of viscosity, probability and seed";
+                    problems.0.push(Diagnostic::at(other.place, message).help("give one of the two"));
+                }
+            }
+            let rate = problems.keep(scope.of(node, &damping::RATE))?;
+            return Some(Damping::Viscous { rate });
+        }
         let viscosity = problems.keep(scope.get(&section, &damping::VISCOSITY));
         let probability = problems.keep(scope.get(&section, &damping::PROBABILITY));
         let seed = problems.keep(count(&section, &damping::SEED, u64::MAX));
         let (probability, seed) =
             (probability?.unwrap_or(defaults::PROBABILITY), seed?.unwrap_or(defaults::SEED));
-        Some(Damping { viscosity: viscosity?, probability, seed })
+        Some(Damping::Splitting { viscosity: viscosity?, probability, seed })
     });
     let statics = section(root, quasi_static::TABLE.header, bodies, problems).and_then(|section| {
         section.only(quasi_static::TABLE.keys, problems);

@@ -66,7 +66,8 @@ pub(crate) fn read(root: &Table, scope: &Scope, problems: &mut Problems) -> Opti
     Some((time, monitor))
 }
 
-fn flag(node: &Node, key: &Key) -> Result<bool, Diagnostic> {
+/// `true` or `false`.
+pub(super) fn flag(node: &Node, key: &Key) -> Result<bool, Diagnostic> {
     match node.value {
         Value::Bool(flag) => Ok(flag),
         _ => Err(Diagnostic::at(

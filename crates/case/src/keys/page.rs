@@ -37,7 +37,12 @@ fn section(page: &mut String, table: &Table) {
         if table.header.starts_with('[') { format!("`{}`", table.header) } else { "Top level".into() };
     let _ = write!(page, "\n## {title}\n\n{}\n\n```toml\n{}\n```\n\n", table.doc, table.example);
     rows(page, table.keys);
-    for key in table.keys {
+    choices(page, table.keys);
+}
+
+/// The words of keys that have some.
+fn choices(page: &mut String, keys: &[Key]) {
+    for key in keys {
         if let Kind::Choice(choices) = key.kind {
             let _ = write!(page, "\n`{}` is one of\n\n", key.name);
             words(page, &choices());
@@ -108,10 +113,12 @@ fn shapes_and_fillings(page: &mut String) {
         if !keys.is_empty() {
             page.push('\n');
             rows(page, keys);
+            choices(page, keys);
         }
     }
     page.push_str("\n## Fillings\n\n");
     words(page, fill::CHOICES);
+    page.push_str("- `{ polar = { around = 36 } }`: layers around the centre of a ring in 2D with as many particles each, one behind the other, each with its sector.\n");
 }
 
 fn expressions(page: &mut String) {

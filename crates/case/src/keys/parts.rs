@@ -40,10 +40,16 @@ pub(crate) mod body {
         Need::Default("that of the case"),
         "How this body is solved.",
     );
+    pub(crate) const SMOOTHING: Key = Key::new(
+        "smoothing",
+        Kind::Number(Dimension::NUMBER, Range::Smoothing),
+        Need::Default("that of the case"),
+        "Smoothing length over the spacing of the case, of this body.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[[body]]",
         doc: "A deformable body. Bodies touch each other and tools; `[[contact]]` says how.",
-        keys: &[NAME, MATERIAL, SHAPE, FILL, VELOCITY, FORMULATION],
+        keys: &[NAME, MATERIAL, SHAPE, FILL, VELOCITY, FORMULATION, SMOOTHING],
         example: "[[body]]\nname = \"strip\"\nmaterial = \"rubber\"\nshape = { box = { min = [0, 0], max = [\"L\", \"H\"] } }\nvelocity = [0, \"0.1*sin(pi*x/L)\"]",
     };
 }
@@ -193,7 +199,7 @@ pub(crate) mod probe {
 /// `[[measure]]`.
 pub(crate) mod measure {
     use super::*;
-    use crate::checked::{Axis, Extremum, Measured};
+    use crate::checked::{Axis, Extremum, Measured, Seen};
 
     pub(crate) const NAME: Key =
         Key::new("name", Kind::Name, Need::Required, "Its name under `measured` in summary.json.");
@@ -245,7 +251,28 @@ pub(crate) mod measure {
         "body",
         Kind::NameOf("body"),
         Need::Optional,
-        "The body; for `rebound-speed` and `volume-ratio`.",
+        "The body; for `rebound-speed` and `volume-ratio`, and where fields are not to be those of all bodies.",
+    );
+    pub(crate) const FIELD: Key =
+        Key::new("field", Kind::Choice(Seen::choices), Need::Optional, "Which field; for `largest`.");
+    pub(crate) const DISPLACEMENT: Key = Key::new(
+        "displacement",
+        Kind::Field(Dimension::LENGTH),
+        Need::Optional,
+        "What the displacement should be, by axis: a function of reference position and time. For `error-max`, `error-rms` and `ratio`.",
+    );
+    pub(crate) const VON_MISES: Key = Key::new(
+        "von_mises",
+        Kind::Scalar(Dimension::PRESSURE),
+        Need::Optional,
+        "What the von Mises stress should be: a function of reference position and time. For `error-max`, `error-rms` and `ratio`.",
+    );
+    pub(crate) const REGION: Key = region(Need::Optional);
+    pub(crate) const ALIGNED: Key = Key::new(
+        "aligned",
+        Kind::Flag,
+        Need::Default("false"),
+        "Whether the translation and small turn of all particles that fit best are taken out of the displacements: for bodies that nothing holds.",
     );
     pub(crate) const OVER: Key = Key::new(
         "over",
@@ -256,7 +283,24 @@ pub(crate) mod measure {
     pub(crate) const TABLE: Table = Table {
         header: "[[measure]]",
         doc: "A named result: a number that summary.json has under `measured`.",
-        keys: &[NAME, KIND, PROBE, COMPONENT, EXTREMUM, PROMINENCE, INDEX, TIME, AXIS, BODY, OVER],
+        keys: &[
+            NAME,
+            KIND,
+            PROBE,
+            COMPONENT,
+            EXTREMUM,
+            PROMINENCE,
+            INDEX,
+            TIME,
+            AXIS,
+            BODY,
+            OVER,
+            FIELD,
+            DISPLACEMENT,
+            VON_MISES,
+            REGION,
+            ALIGNED,
+        ],
         example: "[[measure]]\nname = \"period\"\nkind = \"second-crossing\"\nprobe = \"tip\"\ncomponent = \"y\"",
     };
 }

@@ -142,20 +142,18 @@ fn words(choices: &[Choice]) -> Vec<&'static str> {
 }
 
 fn filling() -> Value {
-    let lattice = object(&[fill::ORIGIN]);
-    let moved = json!({
-        "type": "object",
-        "additionalProperties": false,
-        "properties": { fill::LATTICE: lattice },
-        "required": [fill::LATTICE],
-    });
-    let saved = json!({
-        "type": "object",
-        "additionalProperties": false,
-        "properties": { fill::PARTICLES: { "type": "string" } },
-        "required": [fill::PARTICLES],
-    });
-    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, saved] })
+    let one = |name: &str, value: Value| {
+        json!({
+            "type": "object",
+            "additionalProperties": false,
+            "properties": { name: value },
+            "required": [name],
+        })
+    };
+    let moved = one(fill::LATTICE, Value::Object(object(&[fill::ORIGIN])));
+    let polar = one(fill::POLAR, Value::Object(object(&[fill::AROUND, fill::RINGS])));
+    let saved = one(fill::PARTICLES, json!({ "type": "string" }));
+    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, polar, saved] })
 }
 
 fn shape() -> Value {

@@ -2,7 +2,8 @@
 
 /// Shapes: a table with one key, the kind of the shape.
 pub(crate) mod shape {
-    use super::super::{Key, Kind, Need, Range};
+    use super::super::{Key, Kind, Need, Range, Words};
+    use crate::checked::MeshUnit;
     use crate::units::Dimension;
 
     const LENGTH: Kind = Kind::Number(Dimension::LENGTH, Range::Positive);
@@ -41,6 +42,16 @@ pub(crate) mod shape {
         LENGTH,
         "Length of the bridges along the axis, which join struts of neighbouring rows.",
     );
+    pub(crate) const FILE: Key = required(
+        "file",
+        Kind::Text,
+        "The file, STL or OBJ; its path is relative to the case file. `taut mesh FILE` tells what is in it.",
+    );
+    pub(crate) const UNIT: Key = required(
+        "unit",
+        Kind::Choice(<MeshUnit as Words>::choices),
+        "The unit of its coordinates, which files do not say.",
+    );
     pub(crate) const BY: Key = required("by", POINT, "How far.");
     pub(crate) const ANGLE: Key = required(
         "angle",
@@ -72,6 +83,7 @@ pub(crate) mod shape {
             "3D: a tube around the x axis with six-sided cells cut into it, in staggered rows; struts lead in zigzag from row to row. With an even number of cells along and around, a bridge of the middle row is where y is largest, and one where it is smallest.",
             &[STENT_LENGTH, DIAMETER, THICKNESS, AROUND, ALONG, STRUT, BRIDGE],
         ),
+        ("mesh", "3D: what the triangles of a file enclose.", &[FILE, UNIT]),
         ("union", "Points in any of the shapes of a list.", &[]),
         ("intersection", "Points in all of the shapes of a list.", &[]),
         ("difference", "Points in the first shape of a list and in none of the others.", &[]),
@@ -88,7 +100,7 @@ pub(crate) mod shape {
 
 /// Fillings.
 pub(crate) mod fill {
-    use super::super::{Choice, Key, Kind, Need};
+    use super::super::{Choice, Key, Kind, Need, Range};
     use crate::units::Dimension;
 
     pub(crate) const ORIGIN: Key = Key::new(
@@ -97,6 +109,19 @@ pub(crate) mod fill {
         Need::Required,
         "A corner of one cell; particles stand in the middle of cells.",
     );
+    pub(crate) const AROUND: Key = Key::new(
+        "around",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Required,
+        "Particles of each ring, a whole number from 3 on.",
+    );
+    pub(crate) const RINGS: Key = Key::new(
+        "rings",
+        Kind::Number(Dimension::NUMBER, Range::Positive),
+        Need::Default("the wall over the spacing, rounded"),
+        "How many rings, a whole number.",
+    );
+    pub(crate) const POLAR: &str = "polar";
     pub(crate) const LATTICE: &str = "lattice";
     pub(crate) const CONCENTRIC: &str = "concentric";
     pub(crate) const FITTED: &str = "fitted";

@@ -23,10 +23,16 @@ pub(crate) mod damping {
         Need::Default("1"),
         "Which random choice of steps; the same seed repeats a run bit by bit.",
     );
+    pub(crate) const RATE: Key = Key::new(
+        "rate",
+        Kind::Number(Dimension::new(0, 0, -1), Range::Positive),
+        Need::Optional,
+        "Instead of the others: viscous damping by -rate times the velocity, of rigid motion too. Twice the lowest circular frequency brings a body to rest soonest.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[damping]",
-        doc: "Damping of all motion of total Lagrangian bodies, by the splitting random-choice method of the total Lagrangian paper: for slow loads. Rigid motion is not damped, that of parts against each other is.",
-        keys: &[VISCOSITY, PROBABILITY, SEED],
+        doc: "Damping of all motion of total Lagrangian and small-strain bodies, by the splitting random-choice method of the total Lagrangian paper: for slow loads. Rigid motion is not damped, that of parts against each other is. With `rate` plain viscous damping instead.",
+        keys: &[VISCOSITY, PROBABILITY, SEED, RATE],
         example: "[damping]\nprobability = 0.2",
     };
 }

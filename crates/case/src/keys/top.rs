@@ -7,7 +7,7 @@ pub(crate) mod case {
         measure, probe, quasi_static, tool,
     };
     use super::{material, monitor, region, time};
-    use crate::checked::{Calibration, Formulation, Kernel, Plane, Stepping};
+    use crate::checked::{Calibration, Formulation, Kernel, Normalisation, Plane, Stepping};
     use crate::units::Dimension;
 
     pub(crate) const NAME: Key = Key::new(
@@ -39,7 +39,7 @@ pub(crate) mod case {
     pub(crate) const STEPPING: Key = Key::new(
         "stepping",
         Kind::Choice(Stepping::choices),
-        Need::Default("dual; single for ul-nested"),
+        Need::Default("dual; single for ul-nested and ul-artificial-stress"),
         "How updated Lagrangian bodies renew their neighbours; total Lagrangian ones never do.",
     );
     pub(crate) const SPACING: Key = Key::new(
@@ -72,11 +72,29 @@ pub(crate) mod case {
         Need::Default("10"),
         "Strength of the hourglass control of `tl-ganzenmueller`: a number to be tuned. Too little lets zigzag grow, too much makes bodies too stiff.",
     );
+    pub(crate) const KELVIN_VOIGT: Key = Key::new(
+        "kelvin_voigt",
+        Kind::Number(Dimension::NUMBER, Range::NotNegative),
+        Need::Default("1"),
+        "Factor of the Kelvin-Voigt damping of total Lagrangian bodies, rho0 c h / 2 (TL Eq. 23); 1 as in the paper, 0 for none. `tl-hourglass-free` is not stable without it.",
+    );
     pub(crate) const CALIBRATION: Key = Key::new(
         "calibration",
         Kind::Choice(Calibration::choices),
         Need::Default("paper"),
         "The factors of the force of `tl-hourglass-free`.",
+    );
+    pub(crate) const SHEAR_STRESS: Key = Key::new(
+        "shear_stress",
+        Kind::Flag,
+        Need::Default("true"),
+        "Whether `ul-non-hourglass`, whose motion needs no shear stress, integrates one to be looked at. Without it files and pictures have the pressure alone, and the run is faster.",
+    );
+    pub(crate) const NORMALISATION: Key = Key::new(
+        "normalisation",
+        Kind::Choice(Normalisation::choices),
+        Need::Default("adjoint"),
+        "What `small-strain` does about the part of the kernel that is missing at the edge of a body.",
     );
     const PARAMETERS: Key = Key::new(
         "parameters",
@@ -105,7 +123,10 @@ pub(crate) mod case {
             SMOOTHING,
             REFERENCE_SPEED,
             ALPHA,
+            KELVIN_VOIGT,
             CALIBRATION,
+            SHEAR_STRESS,
+            NORMALISATION,
             PARAMETERS,
             table("material", Kind::Named(&material::TABLE), Need::Required, &material::TABLE),
             table("region", Kind::Named(&region::TABLE), Need::Optional, &region::TABLE),
@@ -202,7 +223,7 @@ pub(crate) mod time {
     pub(crate) const CFL: Key = Key::new(
         "cfl",
         Kind::Number(Dimension::NUMBER, Range::Share),
-        Need::Default("0.6 total Lagrangian, 0.4 updated Lagrangian"),
+        Need::Default("0.6 total Lagrangian, 0.4 updated Lagrangian; 0.8 for small-strain"),
         "Fraction of the stable time step that is taken.",
     );
     pub(crate) const STEP: Key = Key::new(
@@ -211,10 +232,16 @@ pub(crate) mod time {
         Need::Default("stretch"),
         "How total Lagrangian bodies bound their time step.",
     );
+    pub(crate) const DT: Key = Key::new(
+        "dt",
+        Kind::Number(Dimension::TIME, Range::Positive),
+        Need::Default("cfl times the limit of stability"),
+        "A time step for `small-strain`, whose limit of stability does not change in a run; longer than that limit it blows up.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[time]",
         doc: "How long the run is, and how often something is written.",
-        keys: &[END, OUTPUT, CFL, STEP],
+        keys: &[END, OUTPUT, CFL, STEP, DT],
         example: "[time]\nend = \"0.5 s\"\noutput = \"10 ms\"",
     };
 }
@@ -251,7 +278,7 @@ pub(crate) mod monitor {
     pub(crate) const INTERVAL: Key = Key::new(
         "interval",
         Kind::Number(Dimension::TIME, Range::Positive),
-        Need::Default("as [time] output; disorder 600 steps apart"),
+        Need::Default("as [time] output; disorder 1000 steps apart"),
         "Time between two measurements of energies and disorder.",
     );
     pub(crate) const TABLE: Table = Table {

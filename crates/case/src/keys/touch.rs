@@ -67,10 +67,22 @@ pub(crate) mod contact {
     );
     pub(crate) const IGNORE: Key =
         Key::new("ignore", Kind::True, Need::Optional, "They pass through each other.");
+    pub(crate) const PENALTY: Key = Key::new(
+        "penalty",
+        Kind::Number(Dimension::MOMENT, Range::Positive),
+        Need::Optional,
+        "Instead of the general contact: every particle at the edge of one body pushes every one of the other by p (l^6 - l^4)/r at a distance r below `reach`, with l = reach/r. This p, N m (in 2D per metre of depth).",
+    );
+    pub(crate) const REACH: Key = Key::new(
+        "reach",
+        Kind::Number(Dimension::LENGTH, Range::Positive),
+        Need::Optional,
+        "The distance from which on they do; with `penalty`.",
+    );
     pub(crate) const TABLE: Table = Table {
         header: "[[contact]]",
         doc: "How two bodies meet. Without it all bodies and tools touch each other without friction, and no total Lagrangian body touches itself. How stiff contact is follows from the materials.",
-        keys: &[BODIES, FRICTION, IGNORE],
+        keys: &[BODIES, FRICTION, IGNORE, PENALTY, REACH],
         example: "[[contact]]\nbodies = [\"strip\", \"punch\"]\nfriction = 0.3",
     };
 }

@@ -59,9 +59,6 @@ impl Books<'_> {
         let checkpoint = match self.writer.kept.take() {
             Some(Ok(path)) => Ok(path),
             Some(Err(error)) => Err(format!("{error}\nhint: {}", error.hint())),
-            None if self.case.quasi_static.is_some() => {
-                Err("quasi-static runs cannot go on from one".to_string())
-            }
             None => Err("it had not begun".to_string()),
         };
         let (time, step) = (self.simulation.time(), self.simulation.steps());
@@ -145,7 +142,7 @@ fn formulations(case: &Case) -> String {
 }
 
 /// Masses in the order of ids, kg.
-fn mass(simulation: &Simulation) -> Vec<f64> {
+pub(crate) fn mass(simulation: &Simulation) -> Vec<f64> {
     let mut mass = vec![0.0; simulation.len()];
     let mut first = 0;
     for solver in simulation.solvers() {

@@ -4,7 +4,7 @@ use super::error::RunError;
 use crate::Case;
 use output::summary::Settled;
 use output::{OutputError, ProbeTable, ResultDir};
-use taut::simulation::Increment;
+use taut::simulation::{Balance, Increment};
 
 /// The increments so far, and their table.
 pub struct Convergence {
@@ -23,6 +23,29 @@ impl Convergence {
             [("increment", "1"), ("steps", "1"), ("force", "1"), ("motion", "1"), ("converged", "1")];
         let table = ProbeTable::beside_summary(results, "convergence", &columns)?;
         Ok(Self { table, increments: Vec::new(), failed: None })
+    }
+
+    /// As it was when [`Convergence::saved`] gave these numbers; the table is written anew.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn again(results: &ResultDir, saved: &[f64]) -> Result<Self, RunError> {
+        let mut new = Self::create(results)?;
+        for &[number, time, steps, force, motion, converged] in saved.as_chunks::<6>().0 {
+            let (number, steps) = (number as u32, steps as u64);
+            let balance = Balance { force, motion };
+            new.push(Increment { number, time, steps, balance, converged: converged != 0.0 });
+        }
+        Ok(new)
+    }
+
+    /// The increments so far, as numbers.
+    pub fn saved(&self) -> Vec<f64> {
+        let one = |i: &Increment| {
+            let converged = f64::from(u8::from(i.converged));
+            [f64::from(i.number), i.time, i.steps as f64, i.balance.force, i.balance.motion, converged]
+        };
+        self.increments.iter().flat_map(one).collect()
     }
 
     /// Notes an increment. What cannot be written is told at the end of the run.

@@ -104,6 +104,11 @@ impl RunError {
         Self::Threads(error.to_string())
     }
 
+    /// The bodies cannot be started.
+    pub(crate) fn unstarted(diverged: Diverged) -> Self {
+        Self::Tried { diverged: Box::new(diverged), warnings: Vec::new() }
+    }
+
     /// Whether the input is to blame, rather than the run.
     #[must_use]
     pub fn is_input(&self) -> bool {

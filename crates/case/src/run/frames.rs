@@ -1,5 +1,6 @@
 //! Snapshots as frames for files and pictures.
 
+use crate::{Body, Case, Formulation};
 use output::{Array, Frame, Values};
 use std::sync::Arc;
 use taut::field::Quantity;
@@ -9,6 +10,10 @@ use taut::simulation::Snapshot;
 #[derive(Debug)]
 pub struct Framer {
     spacing: f64,
+    /// Whether there is a shear stress to be seen.
+    sheared: bool,
+    /// Whether there is a body with small strains.
+    strain: bool,
     lasting: Lasting,
 }
 
@@ -21,9 +26,15 @@ struct Lasting {
 }
 
 impl Framer {
-    /// For particles of this spacing, m.
-    pub fn new(spacing: f64) -> Self {
-        Self { spacing, lasting: Lasting::default() }
+    /// For the particles of a case.
+    pub fn new(case: &Case) -> Self {
+        let small = |body: &Body| body.scheme.formulation == Formulation::SmallStrain;
+        Self {
+            spacing: case.spacing,
+            sheared: case.shear_stress,
+            strain: case.bodies.iter().any(small),
+            lasting: Lasting::default(),
+        }
     }
 
     /// Makes a frame; `deformation` holds the deformation gradients, row by row.
@@ -41,7 +52,7 @@ impl Framer {
         let whole =
             |name: &str, values: &Arc<Vec<i32>>| Array::scalar(name, "1", Values::Whole(Arc::clone(values)));
         let spacing = Values::Shared(Arc::clone(&self.lasting.spacing));
-        let arrays = vec![
+        let mut arrays = vec![
             several("Displacement", "m", &snapshot.displacement),
             several("Velocity", "m/s", &snapshot.velocity),
             of(Quantity::Density, Values::F32(single(&snapshot.density))),
@@ -53,8 +64,21 @@ impl Framer {
             whole("ParticleId", &self.lasting.id),
             whole("Body", &self.lasting.body),
         ];
+        if !self.sheared {
+            let names = [Quantity::VonMisesStress.name(), Quantity::CauchyStress.name()];
+            arrays.retain(|array| !names.contains(&array.name.as_str()));
+        }
+        if self.strain {
+            let strain: Vec<[f64; 9]> = deformation.iter().map(small_strain).collect();
+            arrays.push(several(Quantity::Strain.name(), Quantity::Strain.unit(), &strain));
+        }
         Frame { time: snapshot.time, step, points: snapshot.positions().collect(), arrays }
     }
+}
+
+/// The symmetric part of the gradient of the displacement.
+fn small_strain(f: &[f64; 9]) -> [f64; 9] {
+    std::array::from_fn(|k| 0.5 * (f[k] + f[k % 3 * 3 + k / 3]) - f64::from(u8::from(k % 4 == 0)))
 }
 
 fn single(values: &[f64]) -> Vec<f32> {

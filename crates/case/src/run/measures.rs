@@ -1,7 +1,9 @@
 //! Named results.
 
+use super::compare;
 use super::curves::{Curve, Point};
-use crate::{Case, Extremum, Feature, MeasureKind};
+use crate::study::spectrum::{Window, spectrum};
+use crate::{Case, Extremum, Feature, Measure, MeasureKind};
 use output::summary::Measured;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -56,6 +58,7 @@ impl Evidence<'_> {
                 let turns = turns(&values[first], &values[second]);
                 feature_of(&Curve { times, values: &turns }, feature, "1")
             }
+            MeasureKind::Field(comparison) => compare::measured(comparison, self.snapshot, self.mass),
             MeasureKind::KineticRatio => Measured::value(self.end.kinetic / self.start.kinetic, "1"),
             MeasureKind::ContactStart => match self.contact {
                 Some(time) => Measured::value(time, "s"),
@@ -85,6 +88,17 @@ impl Evidence<'_> {
     }
 }
 
+/// What the case measures of fields, of this state.
+pub fn fields(case: &Case, snapshot: &Snapshot, mass: &[f64]) -> BTreeMap<String, Measured> {
+    let one = |measure: &Measure| match &measure.kind {
+        MeasureKind::Field(comparison) => {
+            Some((measure.name.clone(), compare::measured(comparison, snapshot, mass)))
+        }
+        _ => None,
+    };
+    case.measures.iter().filter_map(one).collect()
+}
+
 /// Turns of (x, y) about the origin since the first sample; no step is taken for more than half a turn.
 fn turns(x: &[f64], y: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
@@ -111,6 +125,11 @@ fn feature_of(curve: &Curve<'_>, feature: &Feature, unit: &str) -> Measured {
         Feature::SecondCrossing => crossing(2, "the second zero crossing"),
         Feature::Maximum => point(curve.maximum(), "the first sample"),
         Feature::Minimum => point(curve.minimum(), "the first sample"),
+        Feature::Frequency => {
+            let found = spectrum(curve.times, curve.values, Window::Hann);
+            let peak = found.and_then(|found| found.peaks().first().copied());
+            peak.map_or_else(|| short("it vibrated", "Hz"), |peak| Measured::value(peak.frequency, "Hz"))
+        }
         Feature::Duration => curve.duration().map_or_else(
             || short("half of the largest value was passed twice", "s"),
             |t| Measured::value(t, "s"),

@@ -4,13 +4,16 @@ mod alarm;
 mod audit;
 mod books;
 mod checkpoint;
+mod compare;
 mod contact;
 mod convergence;
+mod costs;
 pub mod curves;
 mod diagnosis;
 mod error;
 mod frames;
 mod history;
+mod kept;
 mod measures;
 mod memory;
 mod reactions;
@@ -21,15 +24,18 @@ mod trial;
 mod watcher;
 mod writer;
 
+pub(crate) use books::mass as masses;
 pub use checkpoint::{Checkpoints, INTERVAL, Interrupted, ResumeError, Stop};
 pub use error::RunError;
+pub(crate) use frames::Framer;
+pub(crate) use measures::fields as fields_measured;
 pub use trial::{Estimate, estimate};
 
 use crate::Case;
 use crate::build::{Built, build, increments};
 use alarm::Alarm;
 use books::Books;
-use checkpoint::Schedule;
+use checkpoint::{Schedule, Settling};
 use convergence::Convergence;
 use output::{Frame, ResultDir, Summary};
 use recorder::Recorder;
@@ -159,11 +165,15 @@ fn in_pool(
     (threads, checkpoints): (&rayon::ThreadPool, &Checkpoints),
     observer: &mut dyn Observer,
 ) -> Result<Summary, RunError> {
-    let Setup { mut simulation, probes, writer, remembered, before, numbers, across } = setup;
+    let Setup { mut simulation, probes, writer, remembered, settling, before, numbers, across } = setup;
     // A pool, since a thread that waits for another pool goes on working for its own, as the writer needs it to.
     let desk = pool(1)?;
     let (watcher, clock) = (Watcher::new(observer), Clock { since: Instant::now(), before });
-    let mut convergence = increments(case).map(|_| Convergence::create(results)).transpose()?;
+    let mut convergence = match (&settling, increments(case)) {
+        (_, None) => None,
+        (None, Some(_)) => Some(Convergence::create(results)?),
+        (Some(settling), Some(_)) => Some(Convergence::again(results, &settling.increments)?),
+    };
     let (outbox, inbox) = sheets();
     let shared = (threads.current_num_threads() >= cores()).then_some(threads);
     let alarm = writer.alarm.clone();
@@ -174,7 +184,8 @@ fn in_pool(
         scope.spawn(move |_| *written = Some(writer.work(inbox, watcher, shared)));
         let convergence = convergence.as_mut();
         let simulation = &mut simulation;
-        let march = March { case, simulation, convergence, watcher, alarm: &alarm, clock, stop, schedule };
+        let march =
+            March { case, simulation, convergence, settling, watcher, alarm: &alarm, clock, stop, schedule };
         let recorder = Recorder::new(case, probes, outbox);
         march.finish(match remembered {
             Some(remembered) => recorder.remembering(remembered),
@@ -214,6 +225,8 @@ struct March<'a> {
     case: &'a Case,
     simulation: &'a mut Simulation,
     convergence: Option<&'a mut Convergence>,
+    /// Where a quasi-static run stands, if it goes on, or has to stop.
+    settling: Option<Settling>,
     watcher: &'a Watcher<'a>,
     alarm: &'a Alarm,
     clock: Clock,
@@ -236,8 +249,6 @@ impl March<'_> {
         let ended = self.steps(&mut recorder)?;
         let start = recorder.start;
         match ended {
-            // Only equilibria are noted of a quasi-static run, and it does not go on from between two of them.
-            Ended::Stopped if self.case.quasi_static.is_some() => recorder.abandon(self.simulation)?,
             // A frame or a look that was not due would be missing in the run that goes on.
             Ended::Stopped => self.checkpoint(&mut recorder)?,
             // Disorder is no wrong number: the state as it stopped is as good as any.
@@ -259,7 +270,13 @@ impl March<'_> {
         if let Some(increments) = increments(self.case) {
             let own = self.case.damping.is_none();
             let statics = QuasiStatic::new(self.simulation, increments, own);
-            return self.settle(recorder, statics);
+            return self.settle(
+                recorder,
+                match &self.settling {
+                    Some(settling) => statics.at(settling.state),
+                    None => statics,
+                },
+            );
         }
         let end = self.case.time.end;
         while self.simulation.time() < end {
@@ -284,7 +301,7 @@ impl March<'_> {
     /// Writes a checkpoint now.
     fn checkpoint(&mut self, recorder: &mut Recorder<'_>) -> Result<(), WriterGone> {
         let began = self.clock.since.elapsed();
-        recorder.checkpoint(self.simulation, self.clock.wall())?;
+        recorder.checkpoint(self.simulation, self.settling.as_ref(), self.clock.wall())?;
         self.schedule.note(began, self.clock.since.elapsed());
         Ok(())
     }
@@ -294,6 +311,7 @@ impl March<'_> {
         let of = self.case.quasi_static.map_or(0, |s| s.increments);
         while !statics.is_done() {
             if self.stop.is_requested() {
+                self.settling = self.settles(&statics);
                 return Ok(Ended::Stopped);
             }
             match statics.step(self.simulation) {
@@ -311,8 +329,18 @@ impl March<'_> {
             if let Some(stopped) = self.alarm.stops(self.simulation) {
                 return Ok(Ended::Diverged(stopped));
             }
+            if self.schedule.is_due(self.clock.since.elapsed()) {
+                self.settling = self.settles(&statics);
+                self.checkpoint(recorder)?;
+            }
         }
         Ok(Ended::Done)
+    }
+
+    /// Where a quasi-static run stands.
+    fn settles(&self, statics: &QuasiStatic) -> Option<Settling> {
+        let increments = self.convergence.as_ref().map(|convergence| convergence.saved());
+        Some(Settling { state: statics.saved(), increments: increments? })
     }
 
     fn stepped(&self) {

@@ -27,7 +27,7 @@ impl Meter {
         if let Some(force) = simulation.audit().grips()[boundary].force() {
             return Some(force);
         }
-        let now = (simulation.time(), simulation.audit().grips()[boundary].impulse());
+        let now = (simulation.time(), simulation.audit().grips()[boundary].exerted());
         let (time, before) = self.0.replace(now)?;
         (now.0 > time).then(|| (now.1 - before).times(1.0 / (now.0 - time)))
     }

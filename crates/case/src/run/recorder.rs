@@ -1,6 +1,6 @@
 //! What a run notes as it goes: it reads what is due off the simulation; the writer does the rest.
 
-use super::checkpoint::{self, Saving};
+use super::checkpoint::{self, Saving, Settling};
 use super::reactions::Meter;
 use super::sheet::{Outbox, Sample, WriterGone};
 use crate::Case;
@@ -81,15 +81,23 @@ impl<'a> Recorder<'a> {
         Self { due, meters, start: Some(start), ..self }
     }
 
-    /// Writes a checkpoint of this simulation now, between two of its steps; `wall` is the wall time of the run so far, s. Everything that
+    /// Writes a checkpoint of this simulation now, between two of its steps, with where a quasi-static run stands; `wall` is the wall time of the run so far, s. Everything that
     /// was noted before is on disk before it.
     ///
     /// # Errors
     /// If the writer has stopped.
-    pub fn checkpoint(&mut self, simulation: &Simulation, wall: f64) -> Result<(), WriterGone> {
+    pub fn checkpoint(
+        &mut self,
+        simulation: &Simulation,
+        settling: Option<&Settling>,
+        wall: f64,
+    ) -> Result<(), WriterGone> {
         let Some(start) = &self.start else { return Ok(()) };
         let mut draft = checkpoint::draft(simulation);
         checkpoint::remember(&mut draft, (&self.due, &self.meters), start);
+        if let Some(settling) = settling {
+            settling.add(&mut draft);
+        }
         let saving = Saving { draft, step: simulation.steps(), time: simulation.time(), wall };
         self.outbox.sheet.saving = Some(saving);
         self.outbox.post()

@@ -1,7 +1,8 @@
 //! How a run begins: anew, or from a checkpoint.
 
-use super::checkpoint::{self, Found};
+use super::checkpoint::{self, Found, Settling};
 use super::error::RunError;
+use super::kept;
 use super::recorder::Remembered;
 use super::writer::Writer;
 use crate::Case;
@@ -22,6 +23,8 @@ pub struct Setup<'a> {
     pub writer: Writer<'a>,
     /// What a checkpoint remembered.
     pub remembered: Option<Remembered>,
+    /// Where a quasi-static run stood there.
+    pub settling: Option<Settling>,
     /// Wall time before, s.
     pub before: f64,
     /// What is computed with.
@@ -41,12 +44,13 @@ fn machine() -> Machine {
 /// If something cannot be written.
 pub fn anew<'a>(case: &'a Case, results: &ResultDir, built: Built) -> Result<Setup<'a>, RunError> {
     let (threads, precision) = (rayon::current_num_threads(), built.numbers.name());
-    let manifest = Manifest::new(case.case_text_as_run(), machine(), threads, precision);
+    let mut manifest = Manifest::new(case.case_text_as_run(), machine(), threads, precision);
+    manifest.files = kept::keep(case, results)?;
     manifest.write(results)?;
     let (simulation, rest) = simulation(built);
     let Rest { probes, watch, numbers, warnings, across } = rest;
     let writer = Writer::create(case, results, (watch, About::of(&manifest)), warnings)?;
-    Ok(Setup { simulation, probes, writer, remembered: None, before: 0.0, numbers, across })
+    Ok(Setup { simulation, probes, writer, remembered: None, settling: None, before: 0.0, numbers, across })
 }
 
 /// What is built beside the simulation.
@@ -85,6 +89,8 @@ pub fn again<'a>(
     };
     checkpoint::resume(&mut simulation, &found.checkpoint).map_err(|error| unfit(error.to_string()))?;
     let remembered = checkpoint::remembered(&found.checkpoint).map_err(unfit)?;
+    let settles = case.quasi_static.map(|_| Settling::of(&found.checkpoint));
+    let settling = settles.transpose().map_err(unfit)?;
     if !remembered.fits(probes.len(), case.boundaries.len()) {
         return Err(unfit("it has another number of probes or boundaries".to_string()));
     }
@@ -95,5 +101,5 @@ pub fn again<'a>(
     manifest.write(results)?;
     let about = About { instruction_set: machine().instruction_set, ..About::of(&manifest) };
     let writer = Writer::reopen(case, results, (watch, about), (found.books, found.notes))?;
-    Ok(Setup { simulation, probes, writer, remembered: Some(remembered), before, numbers, across })
+    Ok(Setup { simulation, probes, writer, remembered: Some(remembered), settling, before, numbers, across })
 }

@@ -1,6 +1,7 @@
 //! What a run will cost, from a few steps of it.
 
 use super::checkpoint::{INTERVAL, draft};
+use super::costs::{Costs, Rates};
 use super::error::RunError;
 use super::frames::Framer;
 use super::memory::{peak, present};
@@ -35,6 +36,10 @@ pub struct Estimate {
     pub seconds: f64,
     /// Size of the frames on disk, bytes.
     pub disk: f64,
+    /// The part of the run that output takes.
+    pub output: f64,
+    /// What a look at disorder, a frame and a checkpoint cost, in steps.
+    pub costs: [f64; 3],
     /// Particles across the thinnest part of each body.
     pub across: Vec<usize>,
     /// What is doubtful.
@@ -130,10 +135,12 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let steps = steps(case, dt);
     // A run that is long enough packs checkpoints.
     let packed = (per_step * steps > INTERVAL.as_secs_f64()).then(|| draft(&simulation));
-    let bytes = output::encoded_size(&last.0, (case.time.end / frames(case, dt) / dt) as u64)? as f64;
+    let rates = Rates { steps, per_step, frames: frames(case, dt) };
+    let bytes = output::Rehearsal::default().size(&last.0, (steps / rates.frames) as u64)? as f64;
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
     drop((sheet, last, kept, packed));
+    let costs = Costs::measured((case, &simulation, watch.as_mut()), &rates)?;
     Ok(Estimate {
         particles,
         neighbours,
@@ -141,7 +148,9 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
         steps,
         threads,
         seconds: per_step * steps,
-        disk: bytes * frames(case, dt),
+        disk: bytes * rates.frames,
+        output: costs.share(case, &rates),
+        costs: [costs.look, costs.frame, costs.checkpoint].map(|seconds| seconds / per_step),
         across,
         warnings,
         frame: first.0,
@@ -182,5 +191,5 @@ fn looked_at(
     watch.gap(&snapshot)?;
     let mut deformation = Vec::new();
     watch.deformation(&snapshot, &mut deformation);
-    Ok((Framer::new(case.spacing).frame(&snapshot, &deformation, simulation.steps()), snapshot))
+    Ok((Framer::new(case).frame(&snapshot, &deformation, simulation.steps()), snapshot))
 }

@@ -69,7 +69,7 @@ impl<'a> Writer<'a> {
         Ok(Self {
             case,
             frames: output::Series::create(results)?,
-            framer: Framer::new(case.spacing),
+            framer: Framer::new(case),
             tables,
             watch,
             deformation: Vec::new(),
@@ -108,7 +108,7 @@ impl<'a> Writer<'a> {
         Ok(Self {
             case,
             frames,
-            framer: Framer::new(case.spacing),
+            framer: Framer::new(case),
             tables,
             watch,
             deformation: Vec::new(),

@@ -1,9 +1,12 @@
 //! The texts a case comes from (the file, and the arguments that override it) and places in them.
 
+mod files;
 mod overrides;
 
 use std::ops::Range;
 
+pub use files::UsedFile;
+pub(crate) use files::{Files, Shelf};
 pub use overrides::Overrides;
 pub(crate) use overrides::apply;
 
@@ -33,13 +36,16 @@ impl Place {
 pub struct Sources {
     file: String,
     texts: Vec<String>,
+    shelf: Shelf,
 }
 
 impl Sources {
     /// The texts of a case whose file is called `file` and reads `content`.
     pub(crate) fn new(file: &str, content: &str) -> Self {
         let content = content.strip_prefix('\u{feff}').unwrap_or(content);
-        Self { file: file.to_string(), texts: vec![content.to_string()] }
+        let shelf =
+            Shelf::Folder(std::path::Path::new(file).parent().map_or_else(Default::default, Into::into));
+        Self { file: file.to_string(), texts: vec![content.to_string()], shelf }
     }
 
     /// Adds an argument of the command line, as typed; its number.
@@ -48,9 +54,14 @@ impl Sources {
         self.texts.len() - 1
     }
 
-    /// The folder that the file is in.
-    pub(crate) fn folder(&self) -> std::path::PathBuf {
-        std::path::Path::new(&self.file).parent().map_or_else(std::path::PathBuf::new, Into::into)
+    /// The same with the files that the case refers to on another shelf than the folder of the case.
+    pub(crate) fn with(self, shelf: Shelf) -> Self {
+        Self { shelf, ..self }
+    }
+
+    /// The files that the case refers to.
+    pub(crate) fn files(&self) -> Files {
+        Files::on(self.shelf.clone())
     }
 
     /// The text of the file.

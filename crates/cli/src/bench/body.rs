@@ -8,7 +8,9 @@ use taut::kernel::{Kernel, Shape};
 use taut::machine::{Operations, operations};
 use taut::material::{Moduli, NeoHookean, Plane};
 use taut::math::Vector;
-use taut::simulation::{InSpace, Law, Point, Solver, TotalForm, UpdatedForm, total_body, updated_bodies};
+use taut::simulation::{
+    InSpace, Law, Point, Solver, TotalForm, TotalModel, UpdatedForm, total_body, updated_bodies,
+};
 
 /// Particle spacing, m.
 const DP: f64 = 0.002;
@@ -50,7 +52,8 @@ where
             let law = Law::NeoHookean(NeoHookean { moduli: m, plane: Plane::Strain });
             let options =
                 TotalOptions { kernel: kernel(1.15), cfl: 0.6, wave_speed: WaveSpeed::Stretch, bulk_speed };
-            total_body(Point::points(&points), (form, law), options, subject.numbers)
+            let model = TotalModel { form, law, kelvin_voigt: 1.0 };
+            total_body(Point::points(&points), model, options, subject.numbers)
         }
         Form::Updated(form, stepping) => {
             let options = UpdatedOptions {
@@ -58,6 +61,7 @@ where
                 cfl: 0.4,
                 advection_cfl: 0.2,
                 stepping,
+                ahead: 0.0,
                 // As a body that moves with a twentieth of the speed of sound: what the papers' plates do.
                 reference_speed: 0.05 * bulk_speed,
                 bulk_speed,
@@ -121,5 +125,17 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::NonHourglass::new(stress, D))
         }
         Form::Updated(UpdatedForm::Nested, _) => operations::<D>(&updated::Nested { stress }),
+        Form::Updated(UpdatedForm::ArtificialStress, _) => {
+            let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
+            operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
+        }
+        Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
+        Form::Updated(UpdatedForm::LowDissipation, _) => {
+            operations::<D>(&updated::LowDissipation::new(stress, D))
+        }
+        Form::Updated(UpdatedForm::UnwatchedNonHourglass, _) => {
+            operations::<D>(&updated::NonHourglass::new(updated::Unwatched, D))
+        }
+        Form::Updated(UpdatedForm::Laplacian, _) => operations::<D>(&updated::Laplacian { stress }),
     }
 }

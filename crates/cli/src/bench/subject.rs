@@ -34,7 +34,7 @@ pub struct Subject {
     pub numbers: Numbers,
 }
 
-const FORMS: [Form; 7] = [
+const FORMS: [Form; 9] = [
     Form::Total(TotalForm::HourglassFree(Calibration::Paper)),
     Form::Total(TotalForm::Nested),
     Form::Total(TotalForm::Ganzenmueller(10.0)),
@@ -42,6 +42,8 @@ const FORMS: [Form; 7] = [
     Form::Updated(UpdatedForm::NonHourglass, Stepping::Single),
     Form::Updated(UpdatedForm::Nested, Stepping::Dual),
     Form::Updated(UpdatedForm::Nested, Stepping::Single),
+    Form::Updated(UpdatedForm::Generalised, Stepping::Dual),
+    Form::Updated(UpdatedForm::UnwatchedNonHourglass, Stepping::Dual),
 ];
 
 impl Subject {
@@ -71,21 +73,46 @@ impl Subject {
             Form::Total(TotalForm::HourglassFree(_)) => "tl-hourglass-free",
             Form::Total(TotalForm::Nested) => "tl-nested",
             Form::Total(TotalForm::Ganzenmueller(_)) => "tl-ganzenmueller",
-            Form::Updated(UpdatedForm::NonHourglass, Stepping::Dual) => "ul-non-hourglass/dual-steps",
-            Form::Updated(UpdatedForm::NonHourglass, Stepping::Single) => "ul-non-hourglass/single-steps",
-            Form::Updated(UpdatedForm::Nested, Stepping::Dual) => "ul-nested/dual-steps",
-            Form::Updated(UpdatedForm::Nested, Stepping::Single) => "ul-nested/single-steps",
+            Form::Updated(form, stepping) => {
+                return format!("{}/{}-steps/{}", updated(form), stepped(stepping), self.rest());
+            }
         };
+        format!("{form}/{}", self.rest())
+    }
+
+    /// What every name ends with.
+    fn rest(&self) -> String {
         let arrangement = match self.arrangement {
             Arrangement::Lattice => "lattice",
             Arrangement::Irregular => "irregular",
         };
-        format!("{form}/{}d/{arrangement}/{}", self.dimension, self.numbers.name())
+        format!("{}d/{arrangement}/{}", self.dimension, self.numbers.name())
     }
 
     /// Whether its lists last for several steps.
     pub fn is_dual(&self) -> bool {
         matches!(self.form, Form::Updated(_, Stepping::Dual))
+    }
+}
+
+/// The name of an updated Lagrangian formulation.
+const fn updated(form: UpdatedForm) -> &'static str {
+    match form {
+        UpdatedForm::NonHourglass => "ul-non-hourglass",
+        UpdatedForm::UnwatchedNonHourglass => "ul-non-hourglass-unwatched",
+        UpdatedForm::Nested => "ul-nested",
+        UpdatedForm::ArtificialStress => "ul-artificial-stress",
+        UpdatedForm::Laplacian => "ul-laplacian",
+        UpdatedForm::LowDissipation => "ul-low-dissipation",
+        UpdatedForm::Generalised => "ul-generalised",
+    }
+}
+
+/// A word for what makes the lists.
+const fn stepped(stepping: Stepping) -> &'static str {
+    match stepping {
+        Stepping::Dual => "dual",
+        Stepping::Single => "single",
     }
 }
 
@@ -103,9 +130,9 @@ mod tests {
     #[test]
     fn names_are_unique_and_words_choose() {
         let names: BTreeSet<String> = Subject::all().iter().map(Subject::name).collect();
-        assert_eq!(names.len(), 48);
+        assert_eq!(names.len(), 64);
         let words = |words: &[&str]| chosen(&words.iter().map(ToString::to_string).collect::<Vec<_>>()).len();
-        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (48, 12, 0));
+        assert_eq!((words(&[]), words(&["tl-", "3d"]), words(&["tl-", "ul-"])), (64, 12, 0));
         assert_eq!(words(&["ul-nested/dual-steps/2d/lattice/single"]), 1);
     }
 }

@@ -153,6 +153,7 @@ impl<'a> Album<'a> {
         let frame = self.read(file, Some(field))?;
         let own = self.options.range.map(|ends| Range { ends, cut: false });
         let options = Picture {
+            note: String::new(),
             title: self.title.to_string(),
             field: field.to_string(),
             view: self.view,

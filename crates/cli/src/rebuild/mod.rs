@@ -37,10 +37,11 @@ pub fn report(options: &ReportOptions) -> Result<(), Failure> {
 }
 
 fn tell(options: &ReportOptions, out: &Path, drawn: &Drawn) -> Result<(), Failure> {
+    // Told even if little is wanted: it is why the command fails.
+    for problem in &drawn.problems {
+        complain!("warning: {problem}");
+    }
     if !options.quiet {
-        for problem in &drawn.problems {
-            complain!("warning: {problem}");
-        }
         for file in &drawn.files {
             say!("{}", file.display());
         }

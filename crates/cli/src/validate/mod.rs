@@ -33,8 +33,16 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("contact-fold", include_str!("../../../../validation/contact-fold/accept.toml")),
     ("tl-pull-2d", include_str!("../../../../validation/tl-pull-2d/accept.toml")),
     ("tl-pull-3d", include_str!("../../../../validation/tl-pull-3d/accept.toml")),
+    ("lk-rectangle", include_str!("../../../../validation/lk-rectangle/accept.toml")),
+    ("lk-annulus", include_str!("../../../../validation/lk-annulus/accept.toml")),
+    ("lk-stability", include_str!("../../../../validation/lk-stability/accept.toml")),
+    ("lk-collision", include_str!("../../../../validation/lk-collision/accept.toml")),
     ("ul-plate-2d", include_str!("../../../../validation/ul-plate-2d/accept.toml")),
+    ("ul-plate-3d", include_str!("../../../../validation/ul-plate-3d/accept.toml")),
     ("ul-rings", include_str!("../../../../validation/ul-rings/accept.toml")),
+    ("ul-hollow-balls", include_str!("../../../../validation/ul-hollow-balls/accept.toml")),
+    ("ul-ball-plate-2d", include_str!("../../../../validation/ul-ball-plate-2d/accept.toml")),
+    ("ul-ball-plate-3d", include_str!("../../../../validation/ul-ball-plate-3d/accept.toml")),
 ];
 
 /// Runs the benchmarks that the options name, all without a name, and tells which checks hold.

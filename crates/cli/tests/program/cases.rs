@@ -138,24 +138,35 @@ fn memory_is_what_a_run_takes() {
         let text =
             BLOCK.replace("dp = \"1 mm\"", &format!("dp = \"{resolution}\"")).replace("0.1 ms", "1 us");
         let folder = with_case(&text.replace("output = \"0.02 ms\"", "output = \"0.3 us\""));
-        let told = taut(folder.path(), &["check", "case.toml"]).with(0).stdout;
-        let line = told.lines().find(|l| l.contains("memory")).expect("a line about memory");
-        let told: f64 = line.split_whitespace().nth(2).and_then(|n| n.parse().ok()).expect("a number");
-        let peak = peak_of_run(folder.path());
-        // Of a program this small (30 MB) some megabytes are what the C library and the threads of the pictures happen to hold.
-        assert!(
-            (told - peak).abs() < (0.1 * peak).max(6.0),
-            "told {told} MB, took {peak} MB at {resolution}"
-        );
+        // The middle one of three: of a program this small (30 MB) some megabytes are what the C library and the threads of the pictures
+        // happen to hold.
+        let told = middle([(); 3].map(|()| told_by_check(folder.path())));
+        let peak = middle([0, 1, 2].map(|k| peak_of_run(folder.path(), k)));
+        assert!((told - peak).abs() < 0.1 * peak, "told {told} MB, took {peak} MB at {resolution}");
     }
+}
+
+/// The middle one of three numbers.
+#[cfg(target_os = "linux")]
+fn middle(mut of: [f64; 3]) -> f64 {
+    of.sort_by(f64::total_cmp);
+    of[1]
+}
+
+/// What check says about the memory of the case, MB.
+#[cfg(target_os = "linux")]
+fn told_by_check(folder: &Path) -> f64 {
+    let told = taut(folder, &["check", "case.toml"]).with(0).stdout;
+    let line = told.lines().find(|l| l.contains("memory")).expect("a line about memory");
+    line.split_whitespace().nth(2).and_then(|n| n.parse().ok()).expect("a number")
 }
 
 /// Runs the case, watching what the system says about its memory, MB.
 #[cfg(target_os = "linux")]
-fn peak_of_run(folder: &Path) -> f64 {
+fn peak_of_run(folder: &Path, run: u32) -> f64 {
     use std::process::{Command, Stdio};
     let mut run = Command::new(env!("CARGO_BIN_EXE_taut"))
-        .args(["run", "case.toml", "--quiet"])
+        .args(["run", "case.toml", "--quiet", "--out", &format!("run-{run}")])
         .current_dir(folder)
         .env("MALLOC_ARENA_MAX", "1")
         .stdin(Stdio::null())

@@ -7,10 +7,12 @@ mod command_line;
 mod diagnosis;
 mod divergence;
 mod loads;
+mod mesh;
 mod particles;
 mod report;
 mod results;
 mod resume;
+mod studies;
 mod wrong_input;
 
 use std::path::Path;

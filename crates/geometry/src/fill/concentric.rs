@@ -8,21 +8,47 @@ use std::f64::consts::PI;
 /// The golden angle in radians: the turn from one particle of the spiral to the next.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
+pub(super) fn polar(
+    shape: &Shape,
+    (around, rings): (usize, Option<usize>),
+    spacing: f64,
+    dimension: Dimension,
+) -> Result<Points, FillError> {
+    match dimension {
+        Dimension::Three => Err(FillError::Polar),
+        Dimension::Two if around < 3 => Err(FillError::Around(around)),
+        Dimension::Two => layered(shape, (spacing, dimension, rings), |points, layer, _| {
+            circle(points, layer, (around, 0.0))
+        }),
+    }
+}
+
 pub(super) fn concentric(shape: &Shape, spacing: f64, dimension: Dimension) -> Result<Points, FillError> {
+    layered(shape, (spacing, dimension, None), |points, [below, above], (k, spacing)| match dimension {
+        Dimension::Two => {
+            let count = (PI * (below + above) / spacing).round().max(1.0) as usize;
+            circle(points, [below, above], (count, if k % 2 == 1 { PI / count as f64 } else { 0.0 }));
+        }
+        Dimension::Three => sphere(points, [below, above], spacing),
+    })
+}
+
+/// Layer by layer from the inside out: `place(points, radii, (number, spacing))`.
+fn layered(
+    shape: &Shape,
+    (spacing, dimension, layers): (f64, Dimension, Option<usize>),
+    place: impl Fn(&mut Points, [f64; 2], (usize, f64)),
+) -> Result<Points, FillError> {
     let core = core(shape)?;
     let wall = Wall { inner: core.inner, outer: core.outer, spacing: spacing / core.factor };
     affordable(wall.estimate(dimension), shape, spacing, dimension)?;
-    let layers = wall.layers();
+    let layers = layers.unwrap_or_else(|| wall.layers());
     if layers == 0 {
         return Err(FillError::Empty { spacing, extent: extent(shape, dimension) });
     }
     let mut points = Points::default();
     for k in 0..layers {
-        let [below, above] = wall.radii(k, layers);
-        match dimension {
-            Dimension::Two => circle(&mut points, [below, above], wall.spacing, k % 2 == 1),
-            Dimension::Three => sphere(&mut points, [below, above], wall.spacing),
-        }
+        place(&mut points, wall.radii(k, layers), (k, wall.spacing));
     }
     let growth = core.factor.powi(dimension.axes() as i32);
     for (x, volume) in points.x.iter_mut().zip(&mut points.volume) {
@@ -94,13 +120,11 @@ impl Wall {
     }
 }
 
-/// Particles on the circle midway through a layer, each with its sector of the layer,
+/// So many particles on the circle midway through a layer, from the angle `start` on, each with its sector of the layer,
 /// (r_above^2 - r_below^2)/2 dtheta.
-fn circle(points: &mut Points, [below, above]: [f64; 2], spacing: f64, shifted: bool) {
+fn circle(points: &mut Points, [below, above]: [f64; 2], (count, start): (usize, f64)) {
     let r = 0.5 * (below + above);
-    let count = (2.0 * PI * r / spacing).round().max(1.0) as usize;
     let step = 2.0 * PI / count as f64;
-    let start = if shifted { 0.5 * step } else { 0.0 };
     points.x.extend((0..count).map(|j| {
         let (sin, cos) = (start + j as f64 * step).sin_cos();
         [r * cos, r * sin, 0.0]
@@ -168,6 +192,24 @@ mod tests {
         assert_eq!(points.x[0], [1.05, 0.0, 0.0]);
         let angle = points.x[second][1].atan2(points.x[second][0]);
         assert!(close(angle, PI / 72.0));
+    }
+
+    #[test]
+    fn polar_rings_are_alike_and_have_their_sectors() {
+        let (a, b) = (2.5e-4, 5e-4);
+        let points = fill(&ring(a, b), &Fill::Polar { around: 36, rings: None }, 2.5e-5, Two).unwrap();
+        assert_eq!(points.len(), 360);
+        assert!(close(points.total_volume(), PI * (b * b - a * a)));
+        for (i, (x, volume)) in points.x.iter().zip(&points.volume).enumerate() {
+            let (k, j) = (i / 36, i % 36);
+            let (r, angle) = (a + (k as f64 + 0.5) * 2.5e-5, j as f64 * PI / 18.0);
+            assert!(norm(sub(*x, [r * angle.cos(), r * angle.sin(), 0.0])) < 1e-18);
+            assert!(close(*volume, r * 2.5e-5 * PI / 18.0));
+        }
+        let error = |around, dimension| {
+            fill(&ring(a, b), &Fill::Polar { around, rings: None }, 2.5e-5, dimension).unwrap_err()
+        };
+        assert_eq!((error(36, Three), error(2, Two)), (FillError::Polar, FillError::Around(2)));
     }
 
     #[test]

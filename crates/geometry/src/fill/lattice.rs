@@ -90,7 +90,7 @@ fn inside(
 /// own them on the lower side only, round surfaces not at all.
 fn owns(shape: &Shape, x: Point, near: f64) -> bool {
     match shape {
-        Shape::Box { .. } | Shape::Polygon { .. } => shape.contains(x.map(|c| c + near)),
+        Shape::Box { .. } | Shape::Polygon { .. } | Shape::Mesh(_) => shape.contains(x.map(|c| c + near)),
         Shape::Ball { .. } | Shape::Ring { .. } | Shape::Stent(_) => shape.distance(x) < -near,
         Shape::Cylinder { from, to, radius } => {
             let forward = scale(unit(sub(*to, *from)).unwrap_or([0.0; 3]), near);

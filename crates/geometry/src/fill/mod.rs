@@ -70,6 +70,14 @@ pub enum Fill {
     /// over the outside of the body, is next to nothing everywhere, while those at the surface stay half a spacing inside. All
     /// have the same volume, and together that of the body.
     Fitted,
+    /// The layers of [`Fill::Concentric`] in 2D with as many particles each, one behind the other: row j at the angle
+    /// `2 pi j / around`, with its exact sector of the layer. Particles are the farther apart the farther out they are.
+    Polar {
+        /// Particles of a layer, at least 3.
+        around: usize,
+        /// Layers; `None` for the wall over the spacing, rounded.
+        rings: Option<usize>,
+    },
 }
 
 /// Why a shape cannot be filled. Lengths in metres.
@@ -126,6 +134,12 @@ pub enum FillError {
         "a {0} cannot be filled in layers: only a ring or a ball can (moved, turned, magnified); use a lattice"
     )]
     NotConcentric(&'static str),
+    /// A polar layout in space.
+    #[error("rings of as many particles are for two dimensions; in three use layers or a lattice")]
+    Polar,
+    /// Too few particles around.
+    #[error("a ring of {0} particles does not close; take at least 3")]
+    Around(usize),
 }
 
 /// The lengths to four digits, with ` x ` between them.
@@ -146,6 +160,7 @@ pub fn fill(shape: &Shape, how: &Fill, spacing: f64, dimension: Dimension) -> Re
         Fill::Lattice { origin } => lattice::lattice(shape, origin, spacing, dimension),
         Fill::Concentric => concentric::concentric(shape, spacing, dimension),
         Fill::Fitted => fitted::fitted(shape, spacing, dimension),
+        Fill::Polar { around, rings } => concentric::polar(shape, (around, rings), spacing, dimension),
     }
 }
 

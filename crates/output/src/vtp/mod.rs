@@ -33,24 +33,35 @@ use crate::{Array, Frame, OutputError, Values};
 use blocks::compress;
 use head::{Element, Kind};
 
-/// Fewest steps since the frame before that make compression worth its time: it costs as much as two to four steps.
-const APART: u64 = 300;
+/// Fewest steps since the frame before that make compression worth its time, in space: it costs as much as five steps.
+const APART: u64 = 500;
 
-/// How to compress what changes with every frame.
-fn changing(steps: u64) -> Compression {
-    if steps < APART { Compression::none() } else { Compression::fast() }
+/// The same in the plane, where a step takes less: as much as 25 of them.
+const APART_IN_PLANE: u64 = 2500;
+
+/// How to compress what changes with every frame, so many steps after the one before: such that it costs no more than a hundredth of them.
+fn changing(frame: &Frame, steps: u64) -> Compression {
+    let in_plane = frame.points.iter().all(|x| x[2] == 0.0);
+    let apart = if in_plane { APART_IN_PLANE } else { APART };
+    if steps < apart { Compression::none() } else { Compression::fast() }
 }
 
 /// What is compressed once for many frames.
 const LASTING: Compression = Compression::best();
 
-/// Size of the file of a frame that follows the one before after so many steps, bytes.
-///
-/// # Errors
-/// If the numbers cannot be compressed.
-pub fn encoded_size(frame: &Frame, steps: u64) -> Result<usize, OutputError> {
-    let bytes = Encoder::default().encode_with(frame, changing(steps));
-    bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
+/// Makes frames as a run would, and keeps no file: to know how large they are, and how long they take.
+#[derive(Debug, Default)]
+pub struct Rehearsal(Encoder);
+
+impl Rehearsal {
+    /// Size of the file of a frame that follows the one before after so many steps, bytes.
+    ///
+    /// # Errors
+    /// If the numbers cannot be compressed.
+    pub fn size(&mut self, frame: &Frame, steps: u64) -> Result<usize, OutputError> {
+        let bytes = self.0.encode_with(frame, changing(frame, steps));
+        bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
+    }
 }
 
 /// Writes one frame as a file of its own.
@@ -129,7 +140,7 @@ impl Encoder {
     pub(crate) fn encode(&mut self, frame: &Frame) -> io::Result<Vec<u8>> {
         let steps = self.last.map_or(u64::MAX, |last| frame.step.saturating_sub(last));
         self.last = Some(frame.step);
-        self.encode_with(frame, changing(steps))
+        self.encode_with(frame, changing(frame, steps))
     }
 
     /// The bytes of the file; arrays are compressed in parallel.
@@ -238,13 +249,15 @@ mod tests {
 
     #[test]
     fn frames_that_come_quickly_are_stored_and_others_compressed() {
-        let frame = |step| Frame { time: 0.0, step, points: vec![[1.0; 3]; 1000], arrays: vec![] };
-        let mut encoder = Encoder::default();
-        let sizes = [0, APART - 1, 2 * APART - 1].map(|step| encoder.encode(&frame(step)).unwrap().len());
-        // 24 bytes a position; equal ones compress to next to nothing.
-        assert!(sizes[1] > sizes[0] + 20_000 && sizes[2] < sizes[0] + 1000, "{sizes:?}");
-        // The head holds the number of the step.
-        assert_eq!(encoded_size(&frame(APART - 1), APART - 1).unwrap(), sizes[1]);
+        for (z, apart) in [(1.0, APART), (0.0, APART_IN_PLANE)] {
+            let frame = |step| Frame { time: 0.0, step, points: vec![[1.0, 1.0, z]; 1000], arrays: vec![] };
+            let mut encoder = Encoder::default();
+            let sizes = [0, apart - 1, 2 * apart - 1].map(|step| encoder.encode(&frame(step)).unwrap().len());
+            // 24 bytes a position; equal ones compress to next to nothing.
+            assert!(sizes[1] > sizes[0] + 20_000 && sizes[2] < sizes[0] + 1000, "{sizes:?}");
+            // The head holds the number of the step.
+            assert_eq!(Rehearsal::default().size(&frame(apart - 1), apart - 1).unwrap(), sizes[1]);
+        }
     }
 
     #[test]
@@ -267,7 +280,7 @@ mod tests {
         let mut encoder = Encoder::default();
         let same = Arc::new(vec![0, 1, 2]);
         let all = [&same, &same, &Arc::new(vec![2, 1, 0]), &same, &Arc::new(vec![0, 1]), &Arc::default()];
-        for (ids, step) in all.into_iter().zip((0..).step_by(APART as usize)) {
+        for (ids, step) in all.into_iter().zip((0..).step_by(APART_IN_PLANE as usize)) {
             let fresh = Encoder::default().encode(&frame(ids, step)).unwrap();
             assert_eq!(encoder.encode(&frame(ids, step)).unwrap(), fresh);
             assert_eq!(encoder.kept.len(), 4, "cells, identities and spacings");

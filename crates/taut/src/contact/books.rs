@@ -31,7 +31,7 @@ const BOOKS: usize = 8;
 
 impl Met {
     /// Adds a force at a place.
-    fn add(&mut self, force: Vector<f64, 3>, x: Vector<f64, 3>) {
+    pub(super) fn add(&mut self, force: Vector<f64, 3>, x: Vector<f64, 3>) {
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             self.force[k] += force[k];
@@ -58,7 +58,27 @@ impl Contact {
             }
             met.add(self.force_on(i), self.surfaces.x[a]);
         }
+        self.penalties.met(&mut met, body, by);
         met
+    }
+
+    /// The forces (N) of the present step on particles that do not move freely, and where they are (m); by solver and id.
+    pub fn on_held(&self) -> impl Iterator<Item = ((usize, u32), [f64; 3], [f64; 3])> + '_ {
+        let mut first = 0;
+        self.facings.owners.iter().filter_map(move |&(a, end)| {
+            let (facings, a) = (std::mem::replace(&mut first, end as usize)..end as usize, a as usize);
+            let held = self.surfaces.lightness[a].0.contains(&0.0);
+            let member = &self.surfaces.members[self.surfaces.body[a] as usize];
+            held.then(|| {
+                let force = facings.fold(Vector::zero(), |sum, i| sum + self.force_on(i));
+                ((member.solver, self.surfaces.ids[a]), self.surfaces.x[a].0, force.0)
+            })
+        })
+    }
+
+    /// Notes the work and impulses of penalties in a step of `dt`.
+    pub(super) fn note_penalties(&mut self, solvers: &[Box<dyn Solver>], dt: f64) {
+        self.ledger.work += self.penalties.passed(solvers, dt, &mut self.ledger.impulse);
     }
 
     /// Notes the work of prescribed motion and the loss of a step of `dt`.
@@ -94,7 +114,8 @@ impl Contact {
         let facings = self.facings.all.iter();
         let pressed = facings.clone().map(|facing| scene.energy(facing));
         let held = facings.zip(&self.springs.all).map(|(facing, spring)| scene.held(facing, spring));
-        pressed.chain(held).fold(0.0, |sum, energy| sum + energy)
+        let penalties = self.penalties.energy(solvers);
+        pressed.chain(held).fold(penalties, |sum, energy| sum + energy)
     }
 
     /// All that contact remembers from step to step: its books, and the springs of friction. Everything else follows from where the bodies

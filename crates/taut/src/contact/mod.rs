@@ -10,11 +10,13 @@ mod force;
 mod friction;
 mod law;
 mod meetings;
+mod penalty;
 mod surface;
 
 pub use books::Met;
 pub use law::{Law, stiffness};
 pub use meetings::{Meeting, Meetings};
+pub use penalty::{PairPenalty, Penalties};
 
 use crate::integrator::{Diverged, Solver};
 use crate::math::Vector;
@@ -38,6 +40,8 @@ pub struct Contact {
     pressing: Vec<Pressing>,
     pushed: Vec<Pushed>,
     springs: Springs,
+    /// Bodies that push each other by pairs of particles instead.
+    penalties: Penalties,
     /// Owners of facings: id in the solver, and change of velocity in the step, m/s.
     kicks: Vec<(u32, Vector<f64, 3>)>,
     ledger: Ledger,
@@ -64,10 +68,23 @@ impl Contact {
             pressing: Vec::new(),
             pushed: Vec::new(),
             springs: Springs::default(),
+            penalties: Penalties::default(),
             kicks: Vec::new(),
             ledger: Ledger::default(),
             fastest: 0.0,
         }
+    }
+
+    /// The same, with bodies that push each other by pairs of particles about `spacing` (m) apart.
+    #[must_use]
+    pub fn with_penalties(self, penalties: &[PairPenalty], spacing: f64) -> Self {
+        Self { penalties: Penalties::new(penalties, spacing), ..self }
+    }
+
+    /// Those bodies.
+    #[must_use]
+    pub fn penalties(&self) -> &Penalties {
+        &self.penalties
     }
 
     /// Finds the surfaces, once the solvers have started.
@@ -77,6 +94,7 @@ impl Contact {
     pub fn begin(&mut self, solvers: &[Box<dyn Solver>]) -> Result<(), Diverged> {
         self.surfaces = Surfaces::of(solvers, &self.law, self.dimension).map_err(|_| Diverged::unlisted())?;
         self.meet().map_err(|_| Diverged::unlisted())?;
+        self.penalties.begin(solvers);
         self.bound();
         Ok(())
     }
@@ -89,6 +107,7 @@ impl Contact {
     pub fn relocate(&mut self, solvers: &[Box<dyn Solver>]) -> Result<(), Diverged> {
         self.surfaces.locate(solvers);
         self.meet().map_err(|_| Diverged::unlisted())?;
+        self.penalties.relocate(solvers);
         self.bound();
         Ok(())
     }
@@ -99,6 +118,8 @@ impl Contact {
     /// If positions are not numbers.
     pub fn apply(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>) -> Result<(), Diverged> {
         self.relocate(solvers)?;
+        self.note_penalties(solvers, now.dt);
+        self.penalties.kick(solvers, now.dt);
         if self.facings.all.is_empty() {
             return Ok(());
         }
@@ -161,7 +182,7 @@ impl Contact {
     /// omega^2 <= max_a sum_b |d2E/dx_a dx_b| / m_a (Gershgorin).
     fn bound(&mut self) {
         let mut first = 0;
-        self.fastest = 0.0;
+        self.fastest = self.penalties.fastest;
         for &(a, end) in &self.facings.owners {
             let stiffness: f64 = self.pushed[first..end as usize].iter().map(|p| p.stiffness).sum();
             let light = self.surfaces.lightness[a as usize].0.iter().fold(0.0_f64, |most, l| most.max(*l));

@@ -2,5 +2,6 @@
 
 pub mod disorder;
 mod material_point;
+pub mod stability;
 
 pub use material_point::MaterialPoint;

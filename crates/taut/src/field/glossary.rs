@@ -43,6 +43,7 @@ macro_rules! glossary {
                         | Self::Displacement
                         | Self::Position
                         | Self::Density
+                        | Self::DisplacementGradient
                         | Self::ShearAcceleration
                         | Self::ShearStress
                         | Self::AxialShearStress
@@ -60,6 +61,7 @@ macro_rules! glossary {
                     Self::Mass
                         | Self::Volume
                         | Self::Body
+                        | Self::Shepard
                         | Self::Correction
                         | Self::BodyForce
                         | Self::Free
@@ -127,11 +129,15 @@ glossary! {
     ShearModulus: AsScalar, "G", "Pa";
     /// Index of the body, as a number.
     Body: AsScalar, "body", "1";
+    /// Sum of the kernel over a neighbourhood, the particle itself included: 1 inside of a body.
+    Shepard: AsScalar, "s", "1";
     /// Kernel gradient correction.
     Correction: AsTensor, "B", "1";
     /// Deformation gradient.
     DeformationGradient: AsTensor, "F", "1";
-    /// Rate of the deformation gradient.
+    /// Gradient of the displacement.
+    DisplacementGradient: AsTensor, "H", "1";
+    /// Rate of the deformation gradient, or of that of the displacement.
     DeformationRate: AsTensor, "dF/dt", "1/s";
     /// What a total Lagrangian particle hands to its neighbours as stress: P B (nested) or
     /// tau_r F^-T + zeta G J^(-2/d) 1 (hourglass-free).
@@ -150,6 +156,8 @@ glossary! {
     AxialShearStress: AsScalar, "s_zz", "Pa";
     /// Rate of the shear stress on the third axis.
     AxialShearStressRate: AsScalar, "ds_zz/dt", "Pa/s";
+    /// Artificial stress times rho^2: -eps times the tensile part of the stress (Gray et al. 2001).
+    ArtificialStress: AsTensor, "R", "Pa";
     /// Energy dissipated by viscosity so far.
     Dissipated: AsScalar, "W_d", "J";
     /// Work of the shear forces, or of an hourglass control, so far; positive when stored.
@@ -168,6 +176,8 @@ glossary! {
     DissipationRate: AsScalar, "phi", "W/m^3";
     /// Sum of X_ba (x) grad W V_b, whose inverse is B (not stored).
     MomentMatrix: AsTensor, "M", "1";
+    /// Small strain (for output).
+    Strain: AsTensor, "epsilon", "1";
     /// Cauchy stress (for output).
     CauchyStress: AsTensor, "sigma", "Pa";
     /// sqrt(3/2 s:s) of the three-dimensional deviator (for output).

@@ -1,6 +1,7 @@
 //! Formulations: each is the list of its passes, in the order of its paper.
 
 mod kick;
+pub mod small_strain;
 pub mod total;
 pub mod updated;
 
@@ -26,6 +27,11 @@ pub trait Formulation<const D: usize>: Send + Sync {
     /// Rates that follow from velocities, and what is integrated from them.
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>);
 
+    /// What the particle stored at `place` weighs in the product in which the linear operator is symmetric, if it is: its mass, kg.
+    fn metric(&self, run: &impl Run<D>, place: usize) -> f64 {
+        run.word(Quantity::Mass, 0, place)
+    }
+
     /// Stress and energy of the particle stored at `place`, with `ahead` the time that fields are ahead of velocity.
     fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State;
 }
@@ -35,6 +41,8 @@ pub trait Formulation<const D: usize>: Send + Sync {
 pub struct State {
     /// Deformation gradient, if the formulation has one.
     pub deformation: Option<Tensor<f64, 3>>,
+    /// Gradient of the displacement, if the formulation is linear in that instead.
+    pub gradient: Option<Tensor<f64, 3>>,
     /// Density, kg/m^3.
     pub density: f64,
     /// Cauchy stress, Pa.

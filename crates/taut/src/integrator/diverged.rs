@@ -56,7 +56,7 @@ impl Cause {
                  zero-energy modes ends like this too"
             }
             Self::Density => {
-                "particles were pressed together or torn apart: with ul-nested this is tensile instability, \
+                "particles were pressed together or torn apart: with ul-nested (and ul-artificial-stress) this is tensile instability, \
                  otherwise try a smaller [time] cfl or a slower impact"
             }
             Self::Unlisted => {
@@ -68,7 +68,7 @@ impl Cause {
                  time step is too long (try a smaller [time] cfl)"
             }
             Self::Lost => {
-                "a particle left its body: the body is torn, which with ul-nested is tensile instability; \
+                "a particle left its body: the body is torn, which with ul-nested (and ul-artificial-stress) is tensile instability; \
                  otherwise try a smaller [time] cfl or a slower load"
             }
             Self::Gained => {

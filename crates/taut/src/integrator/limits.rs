@@ -98,6 +98,8 @@ pub enum Criterion {
     ShearWave,
     /// sqrt(h / |a|).
     Acceleration,
+    /// The highest frequency of a body whose operator does not change: 2/omega.
+    Operator,
 }
 
 impl Criterion {
@@ -108,6 +110,7 @@ impl Criterion {
             Self::Wave => "h / (c + v)",
             Self::ShearWave => "1.5 h / (c_M + v)",
             Self::Acceleration => "sqrt(h / a)",
+            Self::Operator => "2 / omega",
         }
     }
 }

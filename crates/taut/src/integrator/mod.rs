@@ -6,6 +6,8 @@ mod outside;
 mod relax;
 mod rigid;
 mod solver;
+mod spectrum;
+mod tangent;
 mod total;
 mod updated;
 
@@ -15,5 +17,6 @@ pub use outside::{Held, Impulse, cross};
 pub use relax::{Relax, Unrest};
 pub use rigid::{Motion, Pose, Rigid};
 pub use solver::{Seen, Solver};
+pub use spectrum::{Stiffness, highest, scattered};
 pub use total::{Total, TotalOptions, WaveSpeed};
 pub use updated::{Stepping, Updated, UpdatedOptions};

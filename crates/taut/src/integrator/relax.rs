@@ -14,6 +14,8 @@ pub trait Relax {
     fn exchange(&mut self, viscosity: f64, dt: f64) -> Impulse;
     /// Takes all velocities of free components; what they held counts as dissipated.
     fn rest(&mut self);
+    /// Takes this share of the velocities of free components, up to 1; it counts as dissipated. The impulse that the body has gained.
+    fn slow(&mut self, taken: f64) -> Impulse;
     /// From now on stretched particles are as much heavier as they carry faster waves than at rest, so that they do not shorten the step.
     fn even_out(&mut self);
     /// Multiplies all prescribed velocities.
@@ -112,8 +114,12 @@ impl Scale {
     }
 }
 
-/// v = 0 where free.
-struct Rest(Scale);
+/// v -= taken v where free.
+struct Rest {
+    scale: Scale,
+    /// The share that is taken, up to 1.
+    taken: f64,
+}
 
 impl<const D: usize> Update<D> for Rest {
     type Sum = ();
@@ -122,8 +128,8 @@ impl<const D: usize> Update<D> for Rest {
 
     #[inline(always)]
     fn at<S: Real>(&self, (): &(), a: &Slow<S, D>, _: &Now<S>) -> Of<Self::Writes, S, D> {
-        let moving = Vector::from_fn(|i| a.v[i] * a.free[i]);
-        let lost = self.0.of(a.c2) * a.m * moving.dot(a.v) * S::of(0.5);
+        let moving = Vector::from_fn(|i| a.v[i] * a.free[i] * S::of(self.taken));
+        let lost = self.scale.of(a.c2) * a.m * (moving.dot(a.v) - moving.norm_squared() * S::of(0.5));
         Stopped { v: a.v - moving, dissipated: a.dissipated + lost }
     }
 }
@@ -195,7 +201,12 @@ pub fn momentum<const D: usize>(run: &impl Run<D>) -> Impulse {
 /// All velocities of free components gone. `at_rest` is the squared wave speed of masses that are not scaled, here and below; infinite if
 /// none is.
 pub fn rest<const D: usize>(run: &mut impl Run<D>, at_rest: f64) {
-    run.each(&Rest(Scale { at_rest }), Now { t: 0.0, dt: 0.0 });
+    run.each(&Rest { scale: Scale { at_rest }, taken: 1.0 }, Now { t: 0.0, dt: 0.0 });
+}
+
+/// A share of all velocities of free components gone.
+pub fn slow<const D: usize>(run: &mut impl Run<D>, taken: f64) {
+    run.each(&Rest { scale: Scale { at_rest: f64::INFINITY }, taken }, Now { t: 0.0, dt: 0.0 });
 }
 
 /// The last kick of `dt` as that of scaled masses.

@@ -203,6 +203,7 @@ impl Solver for Rigid {
     fn state(&self, _: usize) -> State {
         State {
             deformation: Some(self.now.rotation),
+            gradient: None,
             density: 0.0,
             cauchy: Tensor::zero(),
             strain_energy: 0.0,

@@ -1,6 +1,6 @@
 //! What a simulation needs of a body in time.
 
-use super::{Bounding, Diverged, Held, Impulse, Relax};
+use super::{Bounding, Diverged, Held, Impulse, Relax, Stiffness};
 use crate::field::Quantity;
 use crate::formulation::State;
 use crate::math::Vector;
@@ -100,6 +100,15 @@ pub trait Solver: Send + Sync {
     fn holding(&self, held: &mut Held, dt: f64) -> Impulse;
     /// What the body forces on these particles, by id, gave in it.
     fn pulling(&self, ids: &[u32], dt: f64) -> Impulse;
+
+    /// What the bodies do against small displacements from where they are, after the start; `None` for rigid ones.
+    fn stiffness(&mut self) -> Option<Box<dyn Stiffness + '_>> {
+        None
+    }
+
+    /// Displaces the particles, component by component in the order of storage, m: with everything that follows from displacements, but at rest. Nothing
+    /// for what is not of the reference configuration.
+    fn displace(&mut self, _: &[f64]) {}
 
     /// The same as something that can be brought to rest, if it can.
     fn relax(&mut self) -> Option<&mut dyn Relax> {

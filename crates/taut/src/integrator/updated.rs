@@ -3,6 +3,8 @@
 use super::diverged::{Check, culprit, not_finite};
 use super::limits::largest;
 use super::outside::{self, Midway};
+use super::spectrum::Stiffness;
+use super::tangent::Tangent;
 use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::updated::refresh_volumes;
@@ -35,6 +37,9 @@ pub struct UpdatedOptions {
     pub advection_cfl: f64,
     /// When the configuration is made anew.
     pub stepping: Stepping,
+    /// How far ahead of the present a configuration of dual stepping is made, as a share of the time that it lasts: 0 in the paper. 1/2 puts it into
+    /// the middle, so that what directions lag behind in its second half they are ahead in its first.
+    pub ahead: f64,
     /// Least speed of the advection criterion, m/s: Eq. (21) has no limit for a body at rest.
     pub reference_speed: f64,
     /// Largest sqrt(K/rho0) of the materials, m/s.
@@ -57,8 +62,10 @@ pub struct Updated<const D: usize, F, R> {
     /// Whether every particle had neighbours enough in the first list.
     sociable: bool,
     order: Vec<u32>,
-    /// Positions at the last list, from which it can be made again, m.
+    /// Positions of the last list, from which it can be made again, m.
     listed: [Vec<f64>; D],
+    /// Positions while a list is made ahead of them, m.
+    present: [Vec<f64>; D],
 }
 
 /// After so many lists particles are put in order again. An elastic body keeps its order; bodies that slide along each other lose it
@@ -80,6 +87,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             sociable: false,
             order: Vec::new(),
             listed: std::array::from_fn(|_| Vec::new()),
+            present: std::array::from_fn(|_| Vec::new()),
         }
     }
 
@@ -107,14 +115,40 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         }
     }
 
-    /// Notes the positions that the list was made at.
-    fn remember(&mut self) {
-        let x = self.run.particles().vector(Quantity::Position);
-        for (listed, x) in self.listed.iter_mut().zip(x) {
+    /// Notes where particles are, and where they will be in `time`: that is where the list is made.
+    fn look_ahead(&mut self, time: f64) {
+        for axis in 0..D {
+            let x = self.run.particles().column(Quantity::Position, axis);
+            let v = self.run.numbers(Quantity::Velocity, axis);
+            let (present, listed) = (&mut self.present[axis], &mut self.listed[axis]);
+            present.resize(x.len(), 0.0);
             listed.resize(x.len(), 0.0);
-            let copy = |(to, from): (&mut [f64], &[f64])| to.copy_from_slice(from);
-            listed.par_chunks_mut(COPIED).zip(x.par_chunks(COPIED)).for_each(copy);
+            let chunks = present.par_chunks_mut(COPIED).zip(listed.par_chunks_mut(COPIED)).enumerate();
+            chunks.for_each(|(chunk, (present, listed))| {
+                let first = chunk * COPIED;
+                for (i, (present, listed)) in present.iter_mut().zip(listed).enumerate() {
+                    let there = if time == 0.0 { 0.0 } else { time * v.at(first + i) };
+                    *present = x[first + i];
+                    *listed = *present + there;
+                }
+            });
         }
+    }
+
+    /// Makes the list where particles will be in `time`, and what the formulation makes of it; they stay where they are.
+    fn list(&mut self, time: f64) -> Result<(), Diverged> {
+        self.look_ahead(time);
+        place(&mut self.run, &self.listed);
+        let listed = self.run.relist(&self.reach());
+        if listed.is_ok() {
+            self.formulation.relisted(&mut self.run);
+        }
+        place(&mut self.run, &self.present);
+        if listed.is_err() {
+            self.diagnose()?;
+            return Err(Diverged::unlisted());
+        }
+        self.count()
     }
 
     /// Makes the list again as it was at the positions in `listed`.
@@ -131,21 +165,15 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             self.sort();
         }
         refresh_volumes(&mut self.run);
-        if self.run.relist(&self.reach()).is_err() {
-            self.diagnose()?;
-            return Err(Diverged::unlisted());
-        }
-        self.remember();
-        self.count()?;
         let o = &self.options;
-        self.formulation.relisted(&mut self.run);
+        let speed = self.limits.speed.max(o.reference_speed).max(f64::MIN_POSITIVE);
         self.left = match o.stepping {
             Stepping::Single => 0.0,
-            Stepping::Dual => {
-                o.advection_cfl * o.kernel.h()
-                    / self.limits.speed.max(o.reference_speed).max(f64::MIN_POSITIVE)
-            }
+            Stepping::Dual => o.advection_cfl * o.kernel.h() / speed,
         };
+        // A body that hardly moves lasts for ever, and goes nowhere.
+        let ahead = o.ahead * self.left;
+        self.list(if self.limits.speed > 0.0 { ahead } else { 0.0 })?;
         self.rebuilds += 1;
         Ok(())
     }
@@ -277,6 +305,11 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
 
     fn fields(&self) -> &'static [Quantity] {
         F::FIELDS
+    }
+
+    fn stiffness(&mut self) -> Option<Box<dyn Stiffness + '_>> {
+        let h = self.options.kernel.h();
+        Some(Box::new(Tangent::new(&self.formulation, &mut self.run, h)))
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {

@@ -56,18 +56,30 @@ impl Kernel {
 
     /// W at distance `r`, 1/m^d.
     #[must_use]
-    pub fn w(&self, r: f64) -> f64 {
-        if r >= self.support() {
-            return 0.0;
-        }
-        let q = r / self.h;
-        self.scale
-            * match self.shape {
-                Shape::WendlandC2 => (1.0 - 0.5 * q).powi(4) * (1.0 + 2.0 * q),
-                Shape::CubicSpline if q < 1.0 => 1.0 - 1.5 * q * q + 0.75 * q.powi(3),
-                Shape::CubicSpline => 0.25 * (2.0 - q).powi(3),
-                Shape::Gaussian => (-q * q).exp(),
+    #[inline(always)]
+    pub fn w<S: Real>(&self, r: S) -> S {
+        let height = self.height(r * S::of(1.0 / self.h)) * S::of(self.scale);
+        S::select(r.lt(S::of(self.support())), height, S::zero())
+    }
+
+    /// The height without its unit, f(q) of W = scale f(q) at q = r/h inside the support.
+    #[must_use]
+    #[inline(always)]
+    pub fn height<S: Real>(&self, q: S) -> S {
+        let (of, one) = (S::of, S::one());
+        match self.shape {
+            Shape::WendlandC2 => {
+                let rest = q.mul_add(of(-0.5), one);
+                let squared = rest * rest;
+                squared * squared * q.mul_add(of(2.0), one)
             }
+            Shape::CubicSpline => {
+                let rest = of(2.0) - q;
+                let near = (q * q).mul_add(q.mul_add(of(0.75), of(-1.5)), one);
+                S::select(q.lt(one), near, of(0.25) * rest * rest * rest)
+            }
+            Shape::Gaussian => (-q * q).exp(),
+        }
     }
 
     /// W / (r dW/dr) at squared distance `r2` (m^2, greater than zero) inside the support: with it a pass makes `W V_b` of its

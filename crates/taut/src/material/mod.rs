@@ -1,11 +1,13 @@
 //! Materials: parameters, stress, energy, wave speed. A material sees a deformation gradient and hands back stress in
 //! three dimensions; 2D is lifted inside, so a material file knows no dimension.
 
+mod linear_elastic;
 mod moduli;
 mod neo_hookean;
 mod neo_hookean_log;
 mod saint_venant_kirchhoff;
 
+pub use linear_elastic::LinearElastic;
 pub use moduli::Moduli;
 pub use neo_hookean::{NeoHookean, Plane};
 pub use neo_hookean_log::NeoHookeanLog;

@@ -1,6 +1,7 @@
 //! Numbers, vectors and tensors: everything the physics is written in.
 
 mod lanes;
+mod principal;
 mod real;
 mod tensor;
 mod vector;

@@ -129,6 +129,15 @@ impl<S: Real, const D: usize> Tensor<S, D> {
         Self::from_fn(|i, j| (self[i][j] - self[j][i]) * S::of(0.5))
     }
 
+    /// The rotation (1 - a)^-1 (1 + a) of this antisymmetric tensor a (`D` = 2 or 3): by the angle 2 atan |a| (Cayley).
+    #[inline(always)]
+    #[must_use]
+    pub fn rotation(self) -> Self {
+        let squared = self.double_dot(self) * S::of(0.5);
+        let factor = S::of(2.0) / (S::one() + squared);
+        (self + self.mul(self)).times(factor).plus_diagonal(S::one())
+    }
+
     /// The cofactor matrix: `det(self)` times the inverse transpose.
     #[inline(always)]
     #[must_use]
@@ -214,6 +223,23 @@ mod tests {
         let error = b.mul(b.inverse()) - Tensor::diagonal(1.0);
         assert!(error.double_dot(error) < 1e-30, "rounding only");
         assert!((b.det() - 1.08).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_antisymmetric_tensor_makes_a_rotation() {
+        let angle = 0.7f64;
+        let t = (0.5 * angle).tan();
+        let plane = Tensor([[0.0, -t], [t, 0.0]]).rotation();
+        let expected = Tensor([[angle.cos(), -angle.sin()], [angle.sin(), angle.cos()]]);
+        let error = plane - expected;
+        assert!(error.double_dot(error) < 1e-30, "rounding only");
+        let space = A.antisymmetric();
+        let turn = space.rotation();
+        let error = turn.mul(turn.transpose()) - Tensor::diagonal(1.0);
+        assert!(error.double_dot(error) < 1e-30 && (turn.det() - 1.0).abs() < 1e-15);
+        let (one, minus) = (Tensor::diagonal(1.0) + space, Tensor::diagonal(1.0) - space);
+        let error = minus.mul(turn) - one;
+        assert!(error.double_dot(error) < 1e-30, "as defined");
     }
 
     #[test]

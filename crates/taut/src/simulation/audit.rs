@@ -1,8 +1,10 @@
 //! The books of momentum: what constraints and body forces have given to the bodies.
 
 use super::{Drive, Solver};
+use crate::contact::Contact;
 use crate::field::Quantity;
 use crate::integrator::{Held, Impulse, cross};
+use std::collections::HashMap;
 
 /// A constraint: which components of which particles it holds, and what that took so far.
 #[derive(Clone, Debug, Default)]
@@ -10,6 +12,8 @@ pub struct Grip {
     /// For each solver that has a part in it.
     parts: Vec<(usize, Held)>,
     impulse: Impulse,
+    /// What contact gave to the components that it holds.
+    pressed: Impulse,
     /// What it exerted in the last step of a quasi-static run, N and N m.
     force: Option<Impulse>,
 }
@@ -37,6 +41,12 @@ impl Grip {
     #[must_use]
     pub fn impulse(&self) -> Impulse {
         self.impulse
+    }
+
+    /// What it exerted since the start: what it gave to the bodies, and what it took up of contact with what it holds.
+    #[must_use]
+    pub fn exerted(&self) -> Impulse {
+        self.impulse - self.pressed
     }
 
     /// Force (N) and moment (N m) of the last step of a quasi-static run; others have impulses instead.
@@ -98,6 +108,8 @@ impl Fall {
 pub struct Audit {
     /// Constraints: those that were named, and one for all that is held besides.
     grips: Vec<Grip>,
+    /// Which of them holds which components of a particle, by its solver and id, where contact may press on it.
+    holders: HashMap<(usize, u32), Vec<(usize, [bool; 3])>>,
     /// By solver.
     loads: Vec<Load>,
     body_forces: Impulse,
@@ -130,6 +142,9 @@ impl Audit {
             self.grips.push(others);
         }
         self.grips.iter_mut().for_each(|grip| grip.start(solvers));
+        if touching {
+            self.holders = holders(&self.grips);
+        }
         let mut driven: Vec<Vec<u32>> = vec![Vec::new(); solvers.len()];
         for drive in drives {
             drive.pulls(&mut |solver, id| driven[solver].push(id));
@@ -180,7 +195,9 @@ impl Audit {
     fn numbers(&mut self) -> Vec<&mut f64> {
         let mut numbers: Vec<&mut f64> = Vec::new();
         for grip in &mut self.grips {
-            numbers.extend(grip.impulse.linear.iter_mut().chain(&mut grip.impulse.angular));
+            for impulse in [&mut grip.impulse, &mut grip.pressed] {
+                numbers.extend(impulse.linear.iter_mut().chain(&mut impulse.angular));
+            }
             numbers.extend(grip.parts.iter_mut().flat_map(|(_, held)| held.before.as_flattened_mut()));
         }
         for load in &mut self.loads {
@@ -206,6 +223,16 @@ impl Audit {
         }
     }
 
+    /// Takes down what contact does in a step of `dt` to what constraints hold: it moves nothing, but the constraints feel it.
+    pub fn pressed(&mut self, contact: &Contact, dt: f64) {
+        for (particle, x, force) in contact.on_held() {
+            for (grip, axes) in self.holders.get(&particle).into_iter().flatten() {
+                let taken = std::array::from_fn(|k| if axes[k] { dt * force[k] } else { 0.0 });
+                self.grips[*grip].pressed.push(x, taken);
+            }
+        }
+    }
+
     /// Takes down what damping gave: what held particles did to their neighbours by it, and its moment, which is not kept inside.
     pub fn damped(&mut self, impulse: Impulse) {
         self.body_forces += impulse;
@@ -227,6 +254,19 @@ impl Audit {
             Load::On(ids) => solver.pulling(ids, dt),
         };
     }
+}
+
+/// The constraints of every particle that has one.
+fn holders(grips: &[Grip]) -> HashMap<(usize, u32), Vec<(usize, [bool; 3])>> {
+    let mut holders: HashMap<(usize, u32), Vec<(usize, [bool; 3])>> = HashMap::new();
+    for (number, grip) in grips.iter().enumerate() {
+        for (solver, held) in &grip.parts {
+            for (&id, &axes) in held.ids.iter().zip(&held.axes) {
+                holders.entry((*solver, id)).or_default().push((number, axes));
+            }
+        }
+    }
+    holders
 }
 
 /// What pulls at a solver; `driven` are the particles whose body force changes. Where bodies touch, the centre of mass does not follow from

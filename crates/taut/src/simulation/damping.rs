@@ -51,6 +51,23 @@ impl Damping for Splitting {
     }
 }
 
+/// Viscous damping, a -= xi v: by (1 - xi dt/2)/(1 + xi dt/2) in every step, so that what is at rest stays in balance exactly.
+#[derive(Clone, Copy, Debug)]
+pub struct Viscous {
+    /// xi, 1/s.
+    pub rate: f64,
+}
+
+impl Damping for Viscous {
+    fn damp(&mut self, solvers: &mut [Box<dyn Solver>], now: Now<f64>, _: u64) -> Impulse {
+        let half = 0.5 * self.rate * now.dt;
+        let taken = (2.0 * half / (1.0 + half)).min(1.0);
+        let mut gave = Impulse::default();
+        solvers.iter_mut().filter_map(|solver| solver.relax()).for_each(|body| gave += body.slow(taken));
+        gave
+    }
+}
+
 /// Kinetic damping: whenever the kinetic energy of all bodies has passed a maximum, all free velocities are taken. It has no
 /// parameter: near a maximum of the kinetic energy, a vibrating body passes through its equilibrium.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +75,18 @@ pub struct Kinetic {
     before: f64,
     /// Whether the last step has taken the velocities.
     pub stopped: bool,
+}
+
+impl Kinetic {
+    /// The kinetic energy after the last step, J, and whether it was taken.
+    pub(super) fn saved(&self) -> (f64, bool) {
+        (self.before, self.stopped)
+    }
+
+    /// The other way round.
+    pub(super) fn restored(before: f64, stopped: bool) -> Self {
+        Self { before, stopped }
+    }
 }
 
 impl Damping for Kinetic {

@@ -15,9 +15,10 @@ mod snapshot;
 pub use audit::{Audit, Grip};
 #[cfg(not(test))]
 pub use body::{
-    Calibration, InSpace, Law, Numbers, Points, TotalForm, UpdatedForm, total_body, updated_bodies,
+    Calibration, EdgeForm, InSpace, Law, Numbers, Points, TotalForm, TotalModel, UpdatedForm,
+    small_strain_body, total_body, updated_bodies,
 };
-pub use damping::{Damping, Kinetic, Splitting};
+pub use damping::{Damping, Kinetic, Splitting, Viscous};
 pub use guard::{COLLAPSE, GAIN, Guard};
 pub use history::{History, Step};
 pub use particles::{Point, total, updated};
@@ -205,6 +206,7 @@ impl Simulation {
         };
         if let Some(contact) = &mut self.contact {
             contact.apply(&mut self.solvers, now)?;
+            self.audit.pressed(contact, now.dt);
         }
         let mut first = 0;
         for (index, solver) in self.solvers.iter_mut().enumerate() {
@@ -249,6 +251,11 @@ impl Simulation {
     /// The same, to put back what it remembers.
     pub fn contact_mut(&mut self) -> Option<&mut Contact> {
         self.contact.as_mut()
+    }
+
+    /// The bodies, to displace them between steps.
+    pub fn solvers_mut(&mut self) -> &mut [Box<dyn Solver>] {
+        &mut self.solvers
     }
 
     /// The bodies.

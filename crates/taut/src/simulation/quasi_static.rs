@@ -81,6 +81,23 @@ impl QuasiStatic {
         new
     }
 
+    /// What it remembers from step to step, as numbers.
+    #[must_use]
+    pub fn saved(&self) -> [f64; 5] {
+        let (before, stopped) = self.kinetic.as_ref().map_or((0.0, false), Kinetic::saved);
+        [f64::from(self.number), self.held as f64, self.began as f64, before, f64::from(u8::from(stopped))]
+    }
+
+    /// Takes back what [`QuasiStatic::saved`] gave, of the same simulation.
+    #[must_use]
+    pub fn at(mut self, [number, held, began, before, stopped]: [f64; 5]) -> Self {
+        (self.number, self.held, self.began) = (number as u32, held as u64, began as u64);
+        if let Some(kinetic) = &mut self.kinetic {
+            *kinetic = Kinetic::restored(before, stopped != 0.0);
+        }
+        self
+    }
+
     /// Whether all increments are over.
     #[must_use]
     pub fn is_done(&self) -> bool {

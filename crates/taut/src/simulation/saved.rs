@@ -5,7 +5,7 @@ use crate::particles::saved::{Part, RestoreError, Shelf};
 
 impl Simulation {
     /// Everything that the next step depends on, and what has come from outside so far: clock, solvers, drives, books. Between two
-    /// steps. What a quasi-static run remembers beside it is not among it.
+    /// steps. What a quasi-static run remembers beside it is not among it: [`QuasiStatic::saved`](super::QuasiStatic::saved).
     #[must_use]
     pub fn save(&self) -> Vec<Part<'_>> {
         let mut parts = vec![

@@ -29,7 +29,8 @@ pub struct Snapshot {
     pub cauchy: Vec<[f64; 9]>,
     /// sqrt(3/2 s:s), Pa.
     pub von_mises: Vec<f64>,
-    /// Deformation gradient, row by row; zero where the formulation has none.
+    /// Deformation gradient, row by row (1 + the gradient of the displacement where everything is linear in that); zero where the formulation
+    /// has none.
     pub deformation: Vec<[f64; 9]>,
 }
 
@@ -108,7 +109,8 @@ impl Chunk<'_> {
         self.density[i] = state.density;
         self.cauchy[i] = flat(state.cauchy);
         self.von_mises[i] = state.cauchy.von_mises();
-        self.deformation[i] = state.deformation.map_or([0.0; 9], flat);
+        let linear = state.gradient.map(|gradient| gradient.plus_diagonal(1.0));
+        self.deformation[i] = state.deformation.or(linear).map_or([0.0; 9], flat);
     }
 }
 

@@ -1,7 +1,7 @@
 //! A run that cannot go on says which particle, which field, when and why.
 
 use crate::common::points::{block, stir};
-use crate::common::{FORMS, Form, Setup};
+use crate::common::{FINITE, Form, Setup};
 use taut::field::Quantity;
 use taut::integrator::{Cause, Diverged};
 use taut::math::Vector;
@@ -43,7 +43,7 @@ fn names_its_particle(diverged: &Diverged, points: &[Point<2>], what: &str) {
 #[test]
 fn an_absurd_step_is_caught() {
     let (setup, points) = (Setup { cfl: 18.0, ..Setup::new(DP) }, points());
-    for form in FORMS {
+    for form in FINITE {
         let mut simulation = start(&setup, form, &points).expect("finite at the start");
         let (mut before, mut found) = (0.0, None);
         for _ in 0..200 {
@@ -77,7 +77,7 @@ fn an_absurd_step_is_caught() {
 /// The same particle, field and cause in every formulation.
 #[test]
 fn a_velocity_that_is_no_number_is_refused_at_the_start() {
-    for form in FORMS {
+    for form in FINITE {
         let mut points = points();
         points[17].v[1] = f64::NAN;
         let diverged = start(&Setup::new(DP), form, &points).err().expect("refused");
@@ -89,7 +89,7 @@ fn a_velocity_that_is_no_number_is_refused_at_the_start() {
 
 #[test]
 fn a_position_that_is_no_number_is_refused_at_the_start() {
-    for form in FORMS {
+    for form in FINITE {
         let mut points = points();
         points[17].x[0] = f64::INFINITY;
         let diverged = start(&Setup::new(DP), form, &points).err().expect("refused");
@@ -207,7 +207,7 @@ fn a_lonely_particle_is_nobodys_loss() {
 /// The history names the criterion, the step and the particle, and keeps the last 64.
 #[test]
 fn the_last_steps_are_remembered() {
-    for form in FORMS {
+    for form in FINITE {
         let mut simulation = start(&Setup::new(DP), form, &points()).expect("finite");
         for _ in 0..100 {
             simulation.step().expect("stable");

@@ -18,6 +18,8 @@ mod plane;
 mod rest;
 mod rigid;
 mod saved;
+mod small_strain;
+mod spinning;
 mod storage;
 mod threads;
 mod time_step;

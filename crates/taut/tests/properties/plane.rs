@@ -103,5 +103,7 @@ fn the_deviator_stays_a_deviator() {
     for plane in [Plane::Strain, Plane::Papers] {
         deviator_stays_one(taut::formulation::updated::Nested { stress: stress(plane) }, plane);
         deviator_stays_one(taut::formulation::updated::NonHourglass::new(stress(plane), 2), plane);
+        let setup = Setup { plane, ..Setup::new(DP) };
+        deviator_stays_one(setup.artificial_stress(2), plane);
     }
 }

@@ -2,15 +2,16 @@
 //! and off it, in both precisions, on another number of threads.
 
 use crate::common::points::{block, disordered, stir};
-use crate::common::{FORMS, Form, Setup};
+use crate::common::{FORMS, Form, Setup, UPDATED};
 use std::collections::BTreeMap;
 use taut::field::Quantity;
 use taut::formulation::updated::Hypoelastic;
+use taut::material::LinearElastic;
 use taut::particles::saved::{Part, RestoreError, Shelf, Values};
 use taut::pass::Now;
 use taut::simulation::{
-    Calibration, Drive, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, UpdatedForm, total_body,
-    updated_bodies,
+    Calibration, Drive, EdgeForm, InSpace, Law, Numbers, Point, Simulation, Solver, TotalForm, TotalModel,
+    UpdatedForm, small_strain_body, total_body, updated_bodies,
 };
 
 const DP: f64 = 0.002;
@@ -45,7 +46,13 @@ where
     let stress = Hypoelastic { plane: setup.plane };
     let total = |form| {
         let law = Law::NeoHookean(setup.material());
-        total_body(Point::points(points), (form, law), setup.total_options(D), numbers).expect("they fit")
+        total_body(
+            Point::points(points),
+            TotalModel { form, law, kelvin_voigt: 1.0 },
+            setup.total_options(D),
+            numbers,
+        )
+        .expect("they fit")
     };
     let updated = |form| {
         let moduli = |_: u32| setup.moduli;
@@ -55,8 +62,18 @@ where
         Form::HourglassFree => total(TotalForm::HourglassFree(Calibration::Paper)),
         Form::TotalNested => total(TotalForm::Nested),
         Form::Ganzenmueller => total(TotalForm::Ganzenmueller(10.0)),
+        Form::SmallStrain => {
+            let material = LinearElastic::solid(setup.moduli);
+            let formed = (EdgeForm::Adjoint, material);
+            small_strain_body(Point::points(points), formed, setup.small_options(D), numbers)
+        }
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
+        Form::ArtificialStress => updated(UpdatedForm::ArtificialStress),
+        Form::Laplacian => updated(UpdatedForm::Laplacian),
+        Form::Generalised => updated(UpdatedForm::Generalised),
+        Form::LowDissipation => updated(UpdatedForm::LowDissipation),
+        Form::Unwatched => updated(UpdatedForm::UnwatchedNonHourglass),
     }
 }
 
@@ -130,7 +147,7 @@ where
     Point<D>: InSpace,
 {
     for form in FORMS {
-        let speed = if matches!(form, Form::NonHourglass | Form::UpdatedNested) { 0.2 } else { 0.05 };
+        let speed = if UPDATED.contains(&form) { 0.2 } else { 0.05 };
         for mut points in [block(n, DP), disordered(n, DP, 0.1)] {
             stir(&mut points, speed * Setup::new(DP).moduli.sound_speed(), 60.0 * DP);
             goes_on(form, &points, numbers);

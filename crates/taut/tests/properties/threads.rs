@@ -86,3 +86,18 @@ fn non_hourglass_in_the_plane() {
 fn updated_nested_in_the_plane() {
     updated(Setup::new(DP).updated_nested());
 }
+
+#[test]
+fn artificial_stress_in_the_plane() {
+    updated(Setup::new(DP).artificial_stress(2));
+}
+
+#[test]
+fn generalised_in_the_plane() {
+    updated(Setup::new(DP).generalised());
+}
+
+#[test]
+fn laplacian_in_the_plane() {
+    updated(Setup::new(DP).laplacian());
+}

@@ -62,6 +62,8 @@ const DISORDER: &str = "books/disorder";
 const CONTACT: &str = "books/contact";
 const DUE: &str = "recorder/due";
 const START: &str = "recorder/start";
+const STATICS: &str = "quasi-static/state";
+const INCREMENTS: &str = "quasi-static/increments";
 const METERS: [&str; 2] = ["recorder/probes", "recorder/boundaries"];
 
 impl Books {
@@ -119,6 +121,36 @@ pub fn remembered(checkpoint: &Checkpoint) -> Result<Remembered, String> {
         if rest.is_empty() { Ok(rows.iter().map(Meter::restored).collect()) } else { Err(unfit(name)) }
     };
     Ok(Remembered { due, meters: [meters(METERS[0])?, meters(METERS[1])?], start })
+}
+
+/// Where a quasi-static run stands.
+#[derive(Clone, Debug)]
+pub struct Settling {
+    /// What the march from equilibrium to equilibrium remembers.
+    pub state: [f64; 5],
+    /// The increments so far.
+    pub increments: Vec<f64>,
+}
+
+impl Settling {
+    /// Adds it to a draft.
+    pub fn add(&self, draft: &mut Draft) {
+        draft.add(STATICS, &self.state);
+        draft.add(INCREMENTS, &self.increments);
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// If something is not there or does not fit.
+    pub fn of(checkpoint: &Checkpoint) -> Result<Self, String> {
+        let numbers = |name: &str| checkpoint.numbers(name).map_err(|reason| format!("`{name}`: {reason}"));
+        let unfit = |name: &str| format!("`{name}` has another length");
+        let state = numbers(STATICS)?.try_into().map_err(|_| unfit(STATICS))?;
+        let increments = numbers(INCREMENTS)?;
+        let whole = increments.len().is_multiple_of(6);
+        whole.then_some(Self { state, increments }).ok_or_else(|| unfit(INCREMENTS))
+    }
 }
 
 /// How many numbers [`of_totals`] are.

@@ -3,7 +3,7 @@
 use super::{Books, Notes};
 use crate::run::audit::Audit;
 use crate::run::writer::untouched;
-use crate::{Case, CaseError, Overrides};
+use crate::{Case, CaseError};
 use output::checkpoint::{Checkpoint, kept, set_aside};
 use output::summary::Status;
 use output::{Manifest, OutputError, ResultDir, Series, Summary, Table};
@@ -94,7 +94,7 @@ impl Interrupted {
             return Err(ResumeError::Done(directory.to_path_buf()));
         }
         let name = format!("the case in {}", directory.join("manifest.json").display());
-        let case = Case::parse(&name, &manifest.case, &Overrides::default())?;
+        let case = Case::again(&name, &manifest, directory)?;
         let candidates = if single { vec![place.to_path_buf()] } else { kept(directory) };
         if candidates.is_empty() {
             return Err(ResumeError::None(directory.to_path_buf()));

@@ -22,7 +22,7 @@ pub use stop::Stop;
 
 pub(super) use interrupted::Found;
 
-pub(super) use books::{Books, Notes, TOTALS, of_totals, remember, remembered, totals};
+pub(super) use books::{Books, Notes, Settling, TOTALS, of_totals, remember, remembered, totals};
 pub(super) use state::{Saving, draft, resume};
 
 use std::time::Duration;

@@ -80,7 +80,10 @@ impl Facts {
 
     /// Whether the body is solved by a form that is blind to zigzag modes.
     pub fn is_nested(&self) -> bool {
-        matches!(self.formulation, Some(Formulation::TlNested | Formulation::UlNested))
+        matches!(
+            self.formulation,
+            Some(Formulation::TlNested | Formulation::UlNested | Formulation::UlArtificialStress)
+        )
     }
 
     /// Whether its neighbours are those of the undeformed body.

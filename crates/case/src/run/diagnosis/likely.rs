@@ -22,11 +22,12 @@ const NOTICED: f64 = 0.004;
 
 /// Everything that speaks for a cause, the likeliest first.
 pub fn signs(evidence: &Evidence<'_>, facts: &Facts) -> Vec<Sign> {
-    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 12] = [
+    let rules: [fn(&Evidence<'_>, &Facts) -> Option<Sign>; 13] = [
         nothing_to_start_from,
         senseless_load,
         impossible_speed,
         long_steps,
+        given_steps,
         stretched_beyond_the_step,
         zigzag,
         torn,
@@ -91,6 +92,22 @@ fn long_steps(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     )
 }
 
+/// A linear body has one way to diverge: steps that are too long.
+fn given_steps(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
+    let March::Small { dt: Some(dt), .. } = e.case.bodies.get(e.diverged.body)?.scheme.march else {
+        return None;
+    };
+    if facts.at_start {
+        return None;
+    }
+    sign(
+        format!(
+            "[time] dt is {dt} s, and small strain is unstable beyond 2/omega of its highest frequency (and earlier where contact is stiff): `taut stability` tells that limit; without dt the step is 0.8 of it."
+        ),
+        vec![tries::shorter_steps(dt)],
+    )
+}
+
 fn stretched_beyond_the_step(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     let body = e.case.bodies.get(e.diverged.body)?;
     let paper = matches!(body.scheme.march, March::Total { step: StepRule::Paper, .. });
@@ -117,7 +134,7 @@ fn zigzag(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
         Some(Formulation::TlNested) => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::TlHourglassFree)])
         }
-        Some(Formulation::UlNested) => {
+        Some(Formulation::UlNested | Formulation::UlArtificialStress) => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::UlNonHourglass)])
         }
         _ => ("", vec![tries::smaller_cfl(facts.cfl.0, facts.cfl.1)]),
@@ -134,15 +151,21 @@ fn torn(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     if !matches!(e.diverged.cause, Cause::Density | Cause::Lost) || facts.is_total() || facts.at_start {
         return None;
     }
-    let nested = facts.formulation == Some(Formulation::UlNested);
-    let mut tries = if nested { vec![tries::formulation(Formulation::UlNonHourglass)] } else { vec![] };
-    tries.extend(tries::slower(e.case));
-    let how = if nested {
-        "ul-nested is unstable in tension: particles clump and tear even where the material would not."
-    } else {
-        "Particles were pressed together or torn apart."
+    let nested =
+        facts.formulation.filter(|f| matches!(f, Formulation::UlNested | Formulation::UlArtificialStress));
+    let mut tries = match nested {
+        Some(_) => vec![tries::formulation(Formulation::UlNonHourglass)],
+        None => vec![],
     };
-    sign(how.to_string(), tries)
+    tries.extend(tries::slower(e.case));
+    let how = match nested {
+        Some(form) => format!(
+            "{} is unstable in tension: particles clump and tear even where the material would not.",
+            form.name()
+        ),
+        None => "Particles were pressed together or torn apart.".to_string(),
+    };
+    sign(how, tries)
 }
 
 fn faster_than_sound(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {

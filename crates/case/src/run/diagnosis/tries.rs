@@ -40,6 +40,11 @@ pub fn smaller_cfl(cfl: f64, default: f64) -> Try {
     )
 }
 
+/// A shorter given step.
+pub fn shorter_steps(dt: f64) -> Try {
+    Try::new(format!("--set time.dt={}", short(0.5 * dt)), "half of the given step")
+}
+
 /// The step that looks at the stretched material.
 pub fn stretch_step() -> Try {
     Try::new(

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::CHUNK;
-use super::gradient::LeastSquares;
+use super::gradient::{LeastSquares, apart};
 use super::symmetric::{Square, apply, dot};
 use crate::neighbours::Adjacency;
 
@@ -39,7 +39,7 @@ pub(super) fn bonds<const D: usize>(
 pub(super) fn inspect<const D: usize>(
     (squares, bonds, dp): (&LeastSquares<D>, &[[u32; 2]], &[f64]),
     f: &[Square<D>],
-    x: [&[f64]; D],
+    x: &[[f64; D]],
     broken: &mut [bool],
 ) -> f64 {
     let pieces = broken.par_chunks_mut(CHUNK).zip(bonds.par_chunks(CHUNK));
@@ -47,7 +47,7 @@ pub(super) fn inspect<const D: usize>(
         let mut shortest = f64::INFINITY;
         for (broken, bond) in broken.iter_mut().zip(bonds) {
             let [i, j] = bond.map(|particle| particle as usize);
-            let now: [f64; D] = std::array::from_fn(|axis| x[axis][j] - x[axis][i]);
+            let now = apart(&x[j], &x[i]);
             let length = dot(now, now).sqrt();
             *broken = length > BREAK * explained(squares, f, i, j);
             shortest = shortest.min(length / spacing(dp, i, j));

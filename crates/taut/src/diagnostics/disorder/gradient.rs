@@ -14,7 +14,8 @@ use crate::neighbours::Adjacency;
 /// Reference neighbours with what the least squares need of them.
 #[derive(Debug, Clone)]
 pub(super) struct LeastSquares<const D: usize> {
-    x0: [Vec<f64>; D],
+    /// Reference positions, point by point: a neighbour is one place in memory, not D.
+    x0: Vec<[f64; D]>,
     support: f64,
     neighbours: Adjacency,
     inverse: Vec<Square<D>>,
@@ -25,8 +26,8 @@ impl<const D: usize> LeastSquares<D> {
     /// Prepares the least squares over `neighbours` of the particles at `x0`, all within `support`.
     pub fn new(x0: [&[f64]; D], support: f64, neighbours: Adjacency) -> Self {
         let n = neighbours.particles();
-        let x0 = x0.map(<[f64]>::to_vec);
-        let mut new = Self { x0, support, neighbours, inverse: Vec::new(), missing: Vec::new() };
+        let mut new = Self { x0: Vec::new(), support, neighbours, inverse: Vec::new(), missing: Vec::new() };
+        points(x0, &mut new.x0);
         let inverses: Vec<_> = (0..n).into_par_iter().map(|i| pseudo_inverse(new.moment(i))).collect();
         (new.inverse, new.missing) = inverses.into_iter().unzip();
         new
@@ -34,7 +35,7 @@ impl<const D: usize> LeastSquares<D> {
 
     /// X_ji = X_j - X_i.
     pub fn step(&self, i: usize, j: usize) -> [f64; D] {
-        std::array::from_fn(|axis| self.x0[axis][j] - self.x0[axis][i])
+        apart(&self.x0[j], &self.x0[i])
     }
 
     /// The weighted mean of the unit vectors to the neighbours of `i`, its length: 0 where they surround the
@@ -54,7 +55,7 @@ impl<const D: usize> LeastSquares<D> {
     }
 
     /// Writes F of every particle at `x` into `f`.
-    pub fn gradients(&self, x: [&[f64]; D], f: &mut [Square<D>]) {
+    pub fn gradients(&self, x: &[[f64; D]], f: &mut [Square<D>]) {
         f.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
             for (offset, f) in chunk.iter_mut().enumerate() {
                 *f = self.gradient(x, k * CHUNK + offset);
@@ -63,16 +64,15 @@ impl<const D: usize> LeastSquares<D> {
     }
 
     /// F of particle `i`.
-    fn gradient(&self, x: [&[f64]; D], i: usize) -> Square<D> {
+    fn gradient(&self, x: &[[f64; D]], i: usize) -> Square<D> {
         let mut sum = [[0.0; D]; D];
         for &j in self.neighbours.of(i) {
-            let j = j as usize;
-            let step = self.step(i, j);
+            let step = self.step(i, j as usize);
+            let moved = apart(&x[j as usize], &x[i]);
             let weight = self.weight(dot(step, step).sqrt());
             for axis in 0..D {
-                let moved = weight * (x[axis][j] - x[axis][i]);
                 for k in 0..D {
-                    sum[axis][k] += moved * step[k];
+                    sum[axis][k] += weight * moved[axis] * step[k];
                 }
             }
         }
@@ -110,6 +110,17 @@ impl<const D: usize> LeastSquares<D> {
     }
 }
 
+/// b - a.
+pub(super) fn apart<const D: usize>(b: &[f64; D], a: &[f64; D]) -> [f64; D] {
+    std::array::from_fn(|axis| b[axis] - a[axis])
+}
+
+/// Writes columns point by point.
+pub(super) fn points<const D: usize>(columns: [&[f64]; D], out: &mut Vec<[f64; D]>) {
+    out.clear();
+    out.extend((0..columns[0].len()).map(|i| columns.map(|column| column[i])));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,8 +130,9 @@ mod tests {
         let x0 = sample::slices(x0);
         let neighbours = trivial_pairs(x0, 2.6, None).unwrap();
         let squares = LeastSquares::new(x0, 2.6, neighbours);
-        let mut f = vec![[[0.0; D]; D]; x0[0].len()];
-        squares.gradients(x, &mut f);
+        let (mut f, mut at) = (vec![[[0.0; D]; D]; x0[0].len()], Vec::new());
+        points(x, &mut at);
+        squares.gradients(&at, &mut f);
         f
     }
 

@@ -31,7 +31,7 @@ pub use error::DisorderError;
 pub use reference::Reference;
 
 /// Particles (or bonds) handed to a thread at a time.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 256;
 
 /// The disorder of one state.
 #[derive(Debug, Clone, Copy, PartialEq)]

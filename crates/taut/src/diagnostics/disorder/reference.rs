@@ -1,7 +1,7 @@
 //! The reference arrangement that states are compared with.
 
 use super::error::{DisorderError, length};
-use super::gradient::LeastSquares;
+use super::gradient::{LeastSquares, points};
 use super::symmetric::Square;
 use super::{Disorder, bonds, pieces, shell, spacing, zigzag};
 use crate::neighbours::{Adjacency, CellGrid, Search, check_positions};
@@ -22,6 +22,7 @@ pub struct Reference<const D: usize> {
 /// Room for the work on a state.
 #[derive(Debug, Clone)]
 struct Room<const D: usize> {
+    x: Vec<[f64; D]>,
     f: Vec<Square<D>>,
     zigzag: Vec<f64>,
     ranked: Vec<f64>,
@@ -53,6 +54,7 @@ impl<const D: usize> Reference<D> {
         let shells = shell::shells(&squares, &near, dp);
         let bonds = bonds::bonds(&squares, &near, dp);
         let room = Room {
+            x: Vec::with_capacity(n),
             f: vec![[[0.0; D]; D]; n],
             zigzag: vec![0.0; n],
             ranked: Vec::with_capacity(n),
@@ -87,15 +89,17 @@ impl<const D: usize> Reference<D> {
     pub fn measure(&mut self, x: [&[f64]; D]) -> Result<Disorder, DisorderError> {
         self.check(x)?;
         let room = &mut self.room;
-        self.squares.gradients(x, &mut room.f);
-        zigzag::amplitudes((&self.squares, &self.shells, &self.dp), &room.f, x, &mut room.zigzag);
+        points(x, &mut room.x);
+        self.squares.gradients(&room.x, &mut room.f);
+        zigzag::amplitudes((&self.squares, &self.shells, &self.dp), &room.f, &room.x, &mut room.zigzag);
         let shells = &self.shells;
         let counted = room.zigzag.iter().enumerate().filter(|&(i, _)| !shells.of(i).is_empty());
         room.ranked.clear();
         room.ranked.extend(counted.map(|(_, amplitude)| amplitude));
         let (zigzag_rms, zigzag_99, zigzag_max) = zigzag::summary(&mut room.ranked);
 
-        let bond_min = bonds::inspect((&self.squares, &self.bonds, &self.dp), &room.f, x, &mut room.broken);
+        let among = (&self.squares, self.bonds.as_slice(), self.dp.as_slice());
+        let bond_min = bonds::inspect(among, &room.f, &room.x, &mut room.broken);
         let broken = room.broken.iter().filter(|&&broken| broken).count();
         let whole = self.bonds.iter().zip(&room.broken).filter(|&(_, broken)| !broken);
         Ok(Disorder {
@@ -123,8 +127,9 @@ impl<const D: usize> Reference<D> {
     pub fn zigzag_field(&mut self, x: [&[f64]; D], out: &mut [f64]) -> Result<(), DisorderError> {
         self.check(x)?;
         length("the field to write", out.len(), self.dp.len())?;
-        self.squares.gradients(x, &mut self.room.f);
-        zigzag::amplitudes((&self.squares, &self.shells, &self.dp), &self.room.f, x, out);
+        points(x, &mut self.room.x);
+        self.squares.gradients(&self.room.x, &mut self.room.f);
+        zigzag::amplitudes((&self.squares, &self.shells, &self.dp), &self.room.f, &self.room.x, out);
         Ok(())
     }
 
@@ -135,7 +140,8 @@ impl<const D: usize> Reference<D> {
     /// As [`Reference::measure`].
     pub fn deformation(&mut self, x: [&[f64]; D]) -> Result<&[[[f64; D]; D]], DisorderError> {
         self.check(x)?;
-        self.squares.gradients(x, &mut self.room.f);
+        points(x, &mut self.room.x);
+        self.squares.gradients(&self.room.x, &mut self.room.f);
         Ok(&self.room.f)
     }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::CHUNK;
 use super::bonds::spacing;
-use crate::neighbours::{CellGrid, SearchError};
+use crate::neighbours::{CellGrid, Near, SearchError};
 
 /// Range of radii to search in, in m: closer particles coincide, further ones cannot be told apart.
 const RADII: (f64, f64) = (1e-149, 1e149);
@@ -25,22 +25,46 @@ pub(super) fn smallest<const D: usize>(
     }
     grid.build(x, radius.min(RADII.1))?;
     let (grid, n) = (&*grid, dp.len());
+    let nearest = if dp.iter().all(|unit| *unit == dp[0]) { nearest_alike } else { nearest };
     let chunks = (0..n.div_ceil(CHUNK)).into_par_iter();
     let closest = chunks.map(|k| (k * CHUNK..n.min((k + 1) * CHUNK)).map(|slot| nearest(grid, dp, slot)));
     Ok(closest.map(|found| found.fold(known, f64::min)).reduce(|| known, f64::min))
 }
 
-/// Smallest |x_ij| in spacings between the particle in `slot` and all near it.
+/// Smallest |x_ij| in spacings between the particle in `slot` and those near it in later slots, which find the others.
 fn nearest<const D: usize>(grid: &CellGrid<D>, dp: &[f64], slot: usize) -> f64 {
-    let (x, ids) = (grid.positions(), grid.ids());
-    let mut least = f64::INFINITY;
-    let near = grid.near(x.map(|column| column[slot]));
-    for other in grid.ranges(&near).flatten().filter(|&other| other != slot) {
-        let square = x.iter().fold(0.0, |sum, column| sum + (column[other] - column[slot]).powi(2));
+    let (x, ids, near) = (grid.positions(), grid.ids(), around(grid, slot));
+    let squares = later(grid, &near, slot).map(|other| {
         let unit = spacing(dp, ids[slot] as usize, ids[other] as usize);
-        least = least.min(square / (unit * unit));
-    }
-    least.sqrt()
+        square(x, slot, other) / (unit * unit)
+    });
+    squares.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// The same where all have one spacing.
+fn nearest_alike<const D: usize>(grid: &CellGrid<D>, dp: &[f64], slot: usize) -> f64 {
+    let (x, near) = (grid.positions(), around(grid, slot));
+    let squares = later(grid, &near, slot).map(|other| square(x, slot, other));
+    squares.fold(f64::INFINITY, f64::min).sqrt() / dp[0]
+}
+
+/// The cells around a slot.
+fn around<const D: usize>(grid: &CellGrid<D>, slot: usize) -> Near {
+    grid.near(grid.positions().map(|column| column[slot]))
+}
+
+/// Slots after this one, in the cells around it.
+fn later<'a, const D: usize>(
+    grid: &'a CellGrid<D>,
+    near: &'a Near,
+    slot: usize,
+) -> impl Iterator<Item = usize> + 'a {
+    grid.ranges(near).flat_map(move |range| range.start.max(slot + 1)..range.end)
+}
+
+/// |x_ij|^2.
+fn square<const D: usize>(x: [&[f64]; D], i: usize, j: usize) -> f64 {
+    x.iter().fold(0.0, |sum, column| sum + (column[j] - column[i]).powi(2))
 }
 
 /// |x_ij| in spacings.

@@ -12,7 +12,7 @@ use crate::neighbours::Adjacency;
 pub(super) fn amplitudes<const D: usize>(
     (squares, shells, dp): (&LeastSquares<D>, &Adjacency, &[f64]),
     f: &[Square<D>],
-    x: [&[f64]; D],
+    x: &[[f64; D]],
     out: &mut [f64],
 ) {
     out.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
@@ -35,12 +35,12 @@ pub(super) fn amplitudes<const D: usize>(
 fn remainder<const D: usize>(
     squares: &LeastSquares<D>,
     f: &[Square<D>],
-    x: [&[f64]; D],
+    x: &[[f64; D]],
     (i, j): (usize, usize),
 ) -> [f64; D] {
     let step = squares.step(i, j);
     let (here, there) = (apply(&f[i], step), apply(&f[j], step));
-    std::array::from_fn(|axis| x[axis][j] - x[axis][i] - 0.5 * (here[axis] + there[axis]))
+    std::array::from_fn(|axis| x[j][axis] - x[i][axis] - 0.5 * (here[axis] + there[axis]))
 }
 
 /// Root mean square, 99th percentile and maximum of `values`, which are put into another order; not numbers if

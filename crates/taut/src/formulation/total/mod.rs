@@ -68,10 +68,10 @@ impl<M: Hyperelastic> Solid<M> {
         Self { material, gamma: 0.5 * density * material.moduli().sound_speed() * h }
     }
 
-    /// The same without damping.
+    /// The same with so many times the damping; 0 for none.
     #[must_use]
-    pub fn undamped(self) -> Self {
-        Self { gamma: 0.0, ..self }
+    pub fn damped(self, factor: f64) -> Self {
+        Self { gamma: factor * self.gamma, ..self }
     }
 
     /// Damping stress tau_d = (gamma/2) (dF F^T + F dF^T) (TL Eqs. 23, 24).
@@ -104,6 +104,7 @@ impl<M: Hyperelastic> Solid<M> {
         let j = f.det();
         State {
             deformation: Some(f.lift(1.0)),
+            gradient: None,
             density: self.material.moduli().density / j,
             cauchy: self.material.kirchhoff(f).times(1.0 / j),
             strain_energy: self.material.energy(f) * word(Quantity::Volume, 0),

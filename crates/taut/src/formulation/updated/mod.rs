@@ -1,12 +1,23 @@
 //! Updated Lagrangian formulations: the kernel follows the particles. One set of particles holds all bodies; they
 //! touch through the pressure and dissipation of ordinary pairs, shear acts only inside a body.
 
+mod accumulated;
+mod artificial_stress;
+mod generalised;
+mod integrated;
 mod kick;
+mod laplacian;
+mod low_dissipation;
 mod motion;
 mod nested;
 mod non_hourglass;
 mod pressure;
 
+pub use accumulated::{Unwatched, Watch};
+pub use artificial_stress::ArtificialStress;
+pub use generalised::Generalised;
+pub use laplacian::Laplacian;
+pub use low_dissipation::LowDissipation;
 pub use nested::Nested;
 pub use non_hourglass::NonHourglass;
 
@@ -18,7 +29,7 @@ use crate::pass::Now;
 use crate::run::Run;
 
 /// Fields of every updated Lagrangian set.
-pub(crate) const FIELDS: &[Quantity] = &[
+pub(crate) const MOTION: &[Quantity] = &[
     Quantity::ReferencePosition,
     Quantity::Position,
     Quantity::Velocity,
@@ -36,16 +47,35 @@ pub(crate) const FIELDS: &[Quantity] = &[
     Quantity::SoundSpeed,
     Quantity::Impedance,
     Quantity::ShearModulus,
-    Quantity::Correction,
     Quantity::ShearAcceleration,
-    Quantity::ShearStress,
-    Quantity::ShearStressRate,
-    Quantity::AxialShearStress,
-    Quantity::AxialShearStressRate,
     Quantity::Dissipated,
     Quantity::ShearWork,
     Quantity::ExternalWork,
 ];
+
+/// These, and those of a shear stress.
+pub(crate) const FIELDS: &[Quantity] = &joined::<{ MOTION.len() + 5 }>(
+    MOTION,
+    &[
+        Quantity::Correction,
+        Quantity::ShearStress,
+        Quantity::ShearStressRate,
+        Quantity::AxialShearStress,
+        Quantity::AxialShearStressRate,
+    ],
+);
+
+/// Two lists of fields as one; `N` is how many they are together.
+pub(crate) const fn joined<const N: usize>(first: &[Quantity], more: &[Quantity]) -> [Quantity; N] {
+    assert!(N == first.len() + more.len());
+    let mut all = [Quantity::Position; N];
+    let mut i = 0;
+    while i < N {
+        all[i] = if i < first.len() { first[i] } else { more[i - first.len()] };
+        i += 1;
+    }
+    all
+}
 
 /// The shear stress of a linear elastic solid.
 #[derive(Clone, Copy, Debug)]
@@ -73,12 +103,18 @@ impl Hypoelastic {
         s: Tensor<S, D>,
         shear: S,
     ) -> ShearRate<S, D> {
+        let spin = gradient.antisymmetric();
+        let rate = self.of_strain(gradient.symmetric(), shear);
+        ShearRate { s: rate.s + spin.mul(s) - s.mul(spin), ..rate }
+    }
+
+    /// 2G dev of a (rate of) strain. In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
+    #[inline(always)]
+    pub fn of_strain<S: Real, const D: usize>(&self, strain: Tensor<S, D>, shear: S) -> ShearRate<S, D> {
         let d = self.plane.d(D);
-        let (strain, spin) = (gradient.symmetric(), gradient.antisymmetric());
         let mean = strain.trace() * S::of(-1.0 / d);
         let twice = shear + shear;
-        let s = strain.plus_diagonal(mean).times(twice) + spin.mul(s) - s.mul(spin);
-        // In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
+        let s = strain.plus_diagonal(mean).times(twice);
         ShearRate { s, axial: if d == 2.0 { S::zero() } else { twice * mean } }
     }
 }
@@ -89,19 +125,30 @@ pub(crate) fn same_body<S: Real>(a: S, b: S) -> S {
     S::select((a - b).abs().lt(S::of(0.5)), S::one(), S::zero())
 }
 
-/// State of a stored particle; `shear_energy` is what the shear forces have stored in it, J.
-pub(crate) fn state<const D: usize>(run: &impl Run<D>, place: usize, shear_energy: f64) -> State {
+/// The shear stress of a stored particle, Pa.
+pub(crate) fn shear_stress<const D: usize>(run: &impl Run<D>, place: usize) -> Tensor<f64, 3> {
     let word = |field, k| run.word(field, k, place);
     let s = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j));
-    let (density, rest) = (word(Quantity::Density, 0), word(Quantity::RestDensity, 0));
-    let c2 = word(Quantity::SoundSpeed, 0).powi(2);
+    s.lift(word(Quantity::AxialShearStress, 0))
+}
+
+/// State of a stored particle with this shear stress; `shear_energy` is what the shear forces have stored in it, J.
+pub(crate) fn state<const D: usize>(
+    run: &impl Run<D>,
+    place: usize,
+    (s, shear_energy): (Tensor<f64, 3>, f64),
+) -> State {
+    let word = |field| run.word(field, 0, place);
+    let (density, rest) = (word(Quantity::Density), word(Quantity::RestDensity));
+    let c2 = word(Quantity::SoundSpeed).powi(2);
     let pressure = c2 * (density - rest);
     let ratio = density / rest;
     State {
         deformation: None,
+        gradient: None,
         density,
-        cauchy: s.lift(word(Quantity::AxialShearStress, 0)).plus_diagonal(-pressure),
-        strain_energy: word(Quantity::Mass, 0) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,
+        cauchy: s.plus_diagonal(-pressure),
+        strain_energy: word(Quantity::Mass) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,
         booked_ahead: 0.0,
     }
 }

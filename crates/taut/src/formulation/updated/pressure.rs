@@ -14,6 +14,23 @@ pub struct Pushing<S, const D: usize> {
     pub z: S,
 }
 
+/// The dissipation alone, along the present line x = x_a - x_b of the pair instead of that of the list, which a spin leaves behind. The speed of
+/// approach is that of the time of v, half a step `half` before: what spins does not approach.
+#[inline(always)]
+pub fn damp<S: Real, const D: usize, const M: u8>(
+    (force, power): (&mut Vector<S, D>, &mut S),
+    (v, x, half): (Vector<S, D>, Vector<S, D>, S),
+    (z, ab): (S, &Pair<S, D, M>),
+) {
+    // A list is filled up with pairs of a particle with itself, of weight 0.
+    let per_square = S::one() / x.norm_squared().max(S::of(1e-30));
+    let approach = z * v.dot(x.plus(-half, v)) * ab.x.dot(ab.e) * per_square;
+    let mut pushed = Vector::zero();
+    ab.along(&mut pushed, x, approach);
+    *force = *force + pushed;
+    *power = pushed.dot(v).mul_add(S::of(-0.5), *power);
+}
+
 /// Adds [-(p_a + p_b) + z (v_a - v_b).e] grad W V_b, which is -2 P* grad W V_b with the interface pressure
 /// P* = (p_a + p_b)/2 - z (v_a - v_b).e / 2; and the power per volume that the second term takes out of the motion.
 ///

@@ -4,10 +4,11 @@
 pub mod points;
 
 use taut::field::Quantity;
+use taut::formulation::small_strain::{Adjoint, SmallStrain};
 use taut::formulation::{Formulation, total, updated};
 use taut::integrator::{Diverged, Stepping, Total, TotalOptions, Updated, UpdatedOptions, WaveSpeed};
 use taut::kernel::{Kernel, Shape};
-use taut::material::{Moduli, NeoHookean, Plane};
+use taut::material::{LinearElastic, Moduli, NeoHookean, Plane};
 use taut::math::Tensor;
 use taut::particles::Particles;
 use taut::pass::Now;
@@ -36,15 +37,63 @@ pub enum Form {
     TotalNested,
     /// `tl-ganzenmueller`.
     Ganzenmueller,
+    /// `small-strain`.
+    SmallStrain,
     /// `ul-non-hourglass`.
     NonHourglass,
     /// `ul-nested`.
     UpdatedNested,
+    /// `ul-artificial-stress`.
+    ArtificialStress,
+    /// `ul-laplacian`.
+    Laplacian,
+    /// `ul-generalised`.
+    Generalised,
+    /// `ul-low-dissipation`.
+    LowDissipation,
+    /// `ul-non-hourglass` without a shear stress.
+    Unwatched,
 }
 
 /// All of them.
-pub const FORMS: [Form; 5] =
-    [Form::HourglassFree, Form::TotalNested, Form::Ganzenmueller, Form::NonHourglass, Form::UpdatedNested];
+pub const FORMS: [Form; 11] = [
+    Form::HourglassFree,
+    Form::TotalNested,
+    Form::Ganzenmueller,
+    Form::SmallStrain,
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
+
+/// The updated Lagrangian ones.
+pub const UPDATED: [Form; 7] = [
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
+
+/// Those that know large strains, so that turns are none and too fast is too fast.
+pub const FINITE: [Form; 10] = [
+    Form::HourglassFree,
+    Form::TotalNested,
+    Form::Ganzenmueller,
+    Form::NonHourglass,
+    Form::UpdatedNested,
+    Form::ArtificialStress,
+    Form::Laplacian,
+    Form::Generalised,
+    Form::LowDissipation,
+    Form::Unwatched,
+];
 
 /// What a body is made of and how it is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +152,7 @@ impl Setup {
             cfl: self.cfl / 1.5,
             advection_cfl: 0.2,
             stepping: self.stepping,
+            ahead: 0.0,
             reference_speed: 0.05 * c0,
             bulk_speed: c0,
             shear_speed: (longitudinal / m.density).sqrt(),
@@ -121,12 +171,42 @@ impl Setup {
         total::Ganzenmueller::new(self.material(), self.total_kernel(dimension), 10.0)
     }
 
-    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass {
+    pub fn small_strain(&self, dimension: usize) -> SmallStrain<Adjoint> {
+        SmallStrain::new(LinearElastic::solid(self.moduli), self.total_kernel(dimension))
+    }
+
+    pub fn small_options(&self, dimension: usize) -> TotalOptions {
+        TotalOptions { wave_speed: WaveSpeed::Operator, cfl: 0.8, ..self.total_options(dimension) }
+    }
+
+    pub fn non_hourglass(&self, dimension: usize) -> updated::NonHourglass<updated::Hypoelastic> {
         updated::NonHourglass::new(updated::Hypoelastic { plane: self.plane }, dimension)
     }
 
     pub fn updated_nested(&self) -> updated::Nested {
         updated::Nested { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    pub fn artificial_stress(&self, dimension: usize) -> updated::ArtificialStress {
+        let stress = updated::Hypoelastic { plane: self.plane };
+        updated::ArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
+    }
+
+    pub fn unwatched(&self, dimension: usize) -> updated::NonHourglass<updated::Unwatched> {
+        updated::NonHourglass::new(updated::Unwatched, dimension)
+    }
+
+    pub fn low_dissipation(&self, dimension: usize) -> updated::LowDissipation {
+        updated::LowDissipation::new(updated::Hypoelastic { plane: self.plane }, dimension)
+    }
+
+    pub fn laplacian(&self) -> updated::Laplacian<updated::Hypoelastic> {
+        updated::Laplacian { stress: updated::Hypoelastic { plane: self.plane } }
+    }
+
+    /// For up to two bodies.
+    pub fn generalised(&self) -> updated::Generalised {
+        updated::Generalised::new(updated::Hypoelastic { plane: self.plane }, 2)
     }
 
     /// A total Lagrangian body.
@@ -166,12 +246,25 @@ impl Setup {
                 let form = self.ganzenmueller(D).among(columns.each_ref().map(Vec::as_slice), &volume);
                 Box::new(simulation::total(points, (form, m), t, run))
             }
+            Form::SmallStrain => {
+                let t = self.small_options(D);
+                Box::new(simulation::total(points, (self.small_strain(D), m), t, run))
+            }
             Form::NonHourglass => {
                 Box::new(simulation::updated(points, (self.non_hourglass(D), &all), u, run))
             }
             Form::UpdatedNested => {
                 Box::new(simulation::updated(points, (self.updated_nested(), &all), u, run))
             }
+            Form::ArtificialStress => {
+                Box::new(simulation::updated(points, (self.artificial_stress(D), &all), u, run))
+            }
+            Form::Generalised => Box::new(simulation::updated(points, (self.generalised(), &all), u, run)),
+            Form::LowDissipation => {
+                Box::new(simulation::updated(points, (self.low_dissipation(D), &all), u, run))
+            }
+            Form::Unwatched => Box::new(simulation::updated(points, (self.unwatched(D), &all), u, run)),
+            Form::Laplacian => Box::new(simulation::updated(points, (self.laplacian(), &all), u, run)),
         }
     }
 

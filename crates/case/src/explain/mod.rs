@@ -1,10 +1,13 @@
 //! A case in plain words.
 
+mod measures;
+
 use crate::{
-    Boundary, Case, Constraint, Course, Family, Feature, FieldExpression, Fill, Kernel, Load, LoadKind,
-    March, MeasureKind, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, Tool,
+    Boundary, Case, Constraint, Course, Damping, Family, FieldExpression, Fill, Formulation, Kernel, Load,
+    LoadKind, March, Model, Monitor, Plane, Probe, Quantity, ShapeSpec, Site, Spot, Stepping, Tool,
     VectorField,
 };
+use measures::measure;
 use std::fmt::Write as _;
 
 /// Says what a case does: bodies and sizes, materials, what holds and moves them, how long, what is recorded.
@@ -14,6 +17,7 @@ pub fn explain(case: &Case) -> String {
     let space = match case.plane {
         None => "In three dimensions".to_string(),
         Some(Plane::Strain) => "In two dimensions (plane strain)".to_string(),
+        Some(Plane::Stress) => "In two dimensions (plane stress)".to_string(),
         Some(Plane::Papers) => "In two dimensions (as the papers' benchmarks)".to_string(),
     };
     let _ = writeln!(text, "{space}, with particles {} apart.", length(case.spacing));
@@ -72,12 +76,14 @@ fn body(case: &Case, index: usize) -> String {
     let body = &case.bodies[index];
     let scheme = &body.scheme;
     let family = match scheme.formulation.family() {
+        Family::Total if scheme.formulation == Formulation::SmallStrain => "small strain",
         Family::Total => "total Lagrangian",
         Family::Updated => "updated Lagrangian",
     };
     let fill = match &body.fill {
         Fill::Lattice { .. } => "on a lattice".to_string(),
         Fill::Concentric => "in layers around its centre".to_string(),
+        Fill::Polar { .. } => "in rings of as many particles".to_string(),
         Fill::Fitted => "with particles that fit its surface".to_string(),
         Fill::Saved(saved) => format!("with the particles of {}", saved.file),
     };
@@ -119,6 +125,9 @@ fn touching(case: &Case) -> Vec<String> {
     let said = case.contacts.iter().map(|contact| {
         let [one, other] = contact.bodies.map(|body| case.name_of(body));
         match contact.friction {
+            None if contact.penalty.is_some() => {
+                format!("{one} and {other} push each other by pairs of particles")
+            }
             None => format!("{one} and {other} pass through each other"),
             Some(mu) if one == other => format!("{one} touches itself, {}", rubbing(mu)),
             Some(mu) => format!("{one} and {other} touch, {}", rubbing(mu)),
@@ -171,6 +180,7 @@ fn shape(spec: &ShapeSpec) -> String {
         ShapeSpec::Stent(s) => {
             format!("a stent ({} cells around, {} along, struts {} wide)", s.around, s.along, length(s.strut))
         }
+        ShapeSpec::Mesh { file, mesh } => format!("the mesh {file} of {} triangles", mesh.faces().len()),
         ShapeSpec::Union(parts) => format!("the union of {}", shapes(parts)),
         ShapeSpec::Intersection(parts) => format!("what is common to {}", shapes(parts)),
         ShapeSpec::Difference(parts) => match parts.split_first() {
@@ -237,18 +247,27 @@ fn times(case: &Case) -> Vec<String> {
             time(case.time.output)
         )];
     }
-    if let Some(d) = case.damping {
+    if let Some(Damping::Splitting { probability, seed, .. }) = case.damping {
         lines.push(format!(
-            "all motion is damped, in {} of the steps chosen at random (seed {})",
-            d.probability, d.seed
+            "all motion is damped, in {probability} of the steps chosen at random (seed {seed})"
         ));
+    } else if let Some(Damping::Viscous { rate }) = case.damping {
+        lines.push(format!("all motion is damped by {rate} 1/s of its velocity"));
     } else if case.quasi_static.is_some() {
         lines.push("motion is stopped whenever the kinetic energy has passed a maximum, and stretched particles are made heavier".into());
     }
     let updated = case.bodies.iter().find_map(|body| match body.scheme.march {
         March::Updated { stepping, .. } => Some(stepping),
-        March::Total { .. } => None,
+        March::Total { .. } | March::Small { .. } => None,
     });
+    let damper = case.bodies.iter().find_map(|body| match body.scheme.march {
+        March::Total { kelvin_voigt, .. } if kelvin_voigt != 1.0 => Some(kelvin_voigt),
+        _ => None,
+    });
+    lines.extend(damper.map(|factor| match factor {
+        0.0 => "no Kelvin-Voigt damping".into(),
+        _ => format!("{factor} times the Kelvin-Voigt damping of the paper"),
+    }));
     match updated {
         Some(Stepping::Dual) => {
             lines.push("neighbours are renewed once in several steps (dual stepping)".into());
@@ -294,41 +313,6 @@ fn probe(case: &Case, probe: &Probe) -> String {
     let often =
         if probe.interval == 0.0 { "every step".into() } else { format!("every {}", time(probe.interval)) };
     format!("{}: the {what} of {spot}, {often}", probe.name)
-}
-
-fn measure(case: &Case, kind: &MeasureKind) -> String {
-    match kind {
-        MeasureKind::Probe { probe, axis, feature, over } => {
-            let axis = ["x", "y", "z"][axis.index()];
-            let what = featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name));
-            over.map_or(what.clone(), |over| format!("{what}, over {}", short(over)))
-        }
-        MeasureKind::Turns { probe, axis, feature } => {
-            let axis = ["x", "y", "z"][axis.index()];
-            let probe = &case.probes[*probe].name;
-            featured(feature, &format!("turns of probe {probe} around the {axis} axis"))
-        }
-        MeasureKind::KineticRatio => "kinetic energy at the end over that at the start".into(),
-        MeasureKind::ContactStart => "when bodies first touch".into(),
-        MeasureKind::VolumeRatio { body } => {
-            format!("volume of {} at the end over that at rest", case.bodies[*body].name)
-        }
-        MeasureKind::ReboundSpeed { body } => format!("speed of {} at the end", case.bodies[*body].name),
-    }
-}
-
-fn featured(feature: &Feature, of: &str) -> String {
-    match feature {
-        Feature::FirstCrossing => format!("when {of} first crosses zero"),
-        Feature::SecondCrossing => format!("when {of} crosses zero the second time"),
-        Feature::Duration => format!("for how long {of} is larger than half of its largest value"),
-        Feature::Maximum => format!("the largest {of}"),
-        Feature::Minimum => format!("the smallest {of}"),
-        Feature::TurningPoint { extremum, index, .. } => {
-            format!("{extremum:?} number {index} of {of}").to_lowercase()
-        }
-        Feature::ValueAt { time: at } => format!("{of} at {}", time(*at)),
-    }
 }
 
 fn still(field: &VectorField) -> bool {

@@ -1,9 +1,13 @@
 //! Position Verlet for a total Lagrangian body (TL section 3.4).
 
+mod relaxing;
+
 use super::diverged::{Check, culprit, not_finite};
 use super::limits::largest;
 use super::outside::{self, Midway};
-use super::relax::{self, Exchange, Relax, Unrest};
+use super::relax::{self, Relax};
+use super::spectrum::{Stiffness, highest};
+use super::tangent::Tangent;
 use super::{Bounding, Cause, Criterion, Diverged, Held, Impulse, Limits, Solver};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
@@ -12,8 +16,11 @@ use crate::particles::saved::{Part, RestoreError, Shelf};
 use crate::pass::Now;
 use crate::run::{self, Among, Relist, Run, Sweeper};
 
+/// Steps of the search for the largest eigenvalue.
+const LANCZOS: usize = 40;
+
 /// Which wave speed the time step uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub enum WaveSpeed {
     /// The longitudinal wave of the stretched material, seen in the reference metric. The default: Eq. (33) is not sufficient for
     /// large stretch.
@@ -21,6 +28,11 @@ pub enum WaveSpeed {
     Stretch,
     /// sqrt(K/rho0), as in TL Eq. (33).
     Paper,
+    /// That of a body whose operator does not change: the step is the Courant number times 2/sqrt(lambda), where lambda is the largest
+    /// eigenvalue of the operator.
+    Operator,
+    /// The same, with a given step, s.
+    Given(f64),
 }
 
 /// Settings of the integrator.
@@ -47,6 +59,8 @@ pub struct Total<const D: usize, F, R> {
     options: TotalOptions,
     limits: Limits,
     ahead: f64,
+    /// The step of a body whose operator does not change, s.
+    steady: Option<f64>,
     /// Squared wave speed at rest, m^2/s^2.
     at_rest: f64,
     /// Squared wave speed from which on particles are heavier; infinite for never.
@@ -65,6 +79,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
             options,
             limits,
             ahead: 0.0,
+            steady: None,
             at_rest: 0.0,
             heavier_from: f64::INFINITY,
             sweeper: None,
@@ -83,7 +98,8 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
 
     fn check(&mut self) -> Result<(), Diverged> {
         self.limits = Limits::with_waves(&mut self.run);
-        let bound = 10.0 * self.options.bulk_speed;
+        // A linear body has no speed that is too fast.
+        let bound = if self.is_steady() { f64::INFINITY } else { 10.0 * self.options.bulk_speed };
         if self.limits.finite && self.limits.speed < bound {
             return Ok(());
         }
@@ -113,10 +129,26 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Total<D, F, R> {
         }
     }
 
+    fn is_steady(&self) -> bool {
+        matches!(self.options.wave_speed, WaveSpeed::Operator | WaveSpeed::Given(_))
+    }
+
+    /// 2/sqrt(lambda) of the operator, s; the time of a wave over a smoothing length where nothing is free to vibrate.
+    fn critical(&mut self) -> f64 {
+        let alone = self.options.kernel.h() / self.limits.wave_speed;
+        let lambda = highest(&mut self.tangent(), LANCZOS);
+        if lambda > 0.0 { 2.0 / lambda.sqrt() } else { alone }
+    }
+
+    /// What the body does against small displacements from where it is.
+    pub fn tangent(&mut self) -> Tangent<'_, D, F, R> {
+        Tangent::new(&self.formulation, &mut self.run, self.options.kernel.h())
+    }
+
     fn wave_speed(&self) -> f64 {
         match self.options.wave_speed {
             WaveSpeed::Stretch if self.heavier_from.is_finite() => self.at_rest.sqrt(),
-            WaveSpeed::Stretch => self.limits.wave_speed,
+            WaveSpeed::Stretch | WaveSpeed::Operator | WaveSpeed::Given(_) => self.limits.wave_speed,
             WaveSpeed::Paper => self.options.bulk_speed,
         }
     }
@@ -170,13 +202,18 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
             let found = culprit(&self.run, &[Check { field, cause, beyond: &not_finite }]);
             return Err(found.unwrap_or_else(Diverged::unlisted));
         }
-        for i in 0..D {
+        for i in (0..D).filter(|_| F::FIELDS.contains(&Quantity::DeformationGradient)) {
             self.run.particles_mut().column_mut(Quantity::DeformationGradient, i * D + i).fill(1.0);
         }
         self.formulation.relisted(&mut self.run);
         self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 0.0 });
         self.check()?;
         self.at_rest = self.limits.wave_speed * self.limits.wave_speed;
+        self.steady = match self.options.wave_speed {
+            WaveSpeed::Operator => Some(self.options.cfl * self.critical()),
+            WaveSpeed::Given(dt) => Some(dt),
+            WaveSpeed::Stretch | WaveSpeed::Paper => None,
+        };
         Ok(())
     }
 
@@ -186,6 +223,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn stable_step(&self) -> f64 {
+        if let Some(dt) = self.steady {
+            return dt;
+        }
         let [wave, acceleration] = self.steps();
         self.options.cfl * wave.min(acceleration)
     }
@@ -193,7 +233,11 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     fn bounding(&self) -> Bounding {
         let [wave, acceleration] = self.steps();
         Bounding {
-            criterion: if acceleration < wave { Criterion::Acceleration } else { Criterion::Wave },
+            criterion: match self.steady {
+                Some(_) => Criterion::Operator,
+                None if acceleration < wave => Criterion::Acceleration,
+                None => Criterion::Wave,
+            },
             wave_speed: self.wave_speed(),
             speed: self.limits.speed,
             acceleration: self.limits.acceleration,
@@ -201,6 +245,9 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
     }
 
     fn at_bound(&self, bounding: &Bounding) -> Option<u32> {
+        if self.steady.is_some() {
+            return None;
+        }
         let waves = self.options.wave_speed == WaveSpeed::Stretch && bounding.wave_speed >= bounding.speed;
         let field = match bounding.criterion {
             Criterion::Acceleration => Quantity::Acceleration,
@@ -216,6 +263,20 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn fields(&self) -> &'static [Quantity] {
         F::FIELDS
+    }
+
+    fn displace(&mut self, u: &[f64]) {
+        let still = |run: &mut R, v: &dyn Fn(usize) -> f64| {
+            (0..u.len()).for_each(|i| run.set_word(Quantity::Velocity, i % D, (i / D, v(i))));
+        };
+        still(&mut self.run, &|i| u[i]);
+        self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 1.0 });
+        still(&mut self.run, &|_| 0.0);
+        self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 0.0 });
+    }
+
+    fn stiffness(&mut self) -> Option<Box<dyn Stiffness + '_>> {
+        Some(Box::new(self.tangent()))
     }
 
     fn advance(&mut self, now: Now<f64>) -> Result<(), Diverged> {
@@ -291,44 +352,5 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Total<D, F, R> {
 
     fn state(&self, place: usize) -> State {
         self.formulation.state(&self.run, place, self.ahead)
-    }
-}
-
-impl<const D: usize, F: Formulation<D>, R: Run<D>> Relax for Total<D, F, R> {
-    fn exchange(&mut self, viscosity: f64, dt: f64) -> Impulse {
-        let before = relax::momentum(&self.run);
-        // Positions were checked when the body was started.
-        let sweeper = self.sweeper.take().or_else(|| Sweeper::new(&self.run, &self.reach()).ok());
-        self.sweeper = sweeper.map(|mut sweeper| {
-            sweeper.sweep(&mut self.run, &Exchange { eta_dt: viscosity * dt });
-            sweeper
-        });
-        relax::momentum(&self.run) - before
-    }
-
-    fn rest(&mut self) {
-        relax::rest(&mut self.run, self.heavier_from);
-    }
-
-    fn even_out(&mut self) {
-        self.heavier_from = self.at_rest;
-    }
-
-    fn pace(&mut self, factor: f64) {
-        relax::pace(&mut self.run, factor);
-    }
-
-    fn unrest(&mut self) -> Unrest {
-        let p = self.run.particles();
-        let density = p.column(Quantity::Mass, 0)[0] / p.column(Quantity::Volume, 0)[0];
-        relax::unrest(&mut self.run, self.heavier_from, density * self.at_rest)
-    }
-
-    fn extent(&self) -> f64 {
-        relax::extent(&self.run)
-    }
-
-    fn wave_speed(&self) -> f64 {
-        self.at_rest.sqrt()
     }
 }

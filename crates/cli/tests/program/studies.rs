@@ -1,0 +1,110 @@
+//! `taut stability`, `modes`, `static` and `spectrum`: what a case is without being run, and what its probes say.
+
+use crate::{BLOCK, taut, with_case};
+use std::path::Path;
+
+/// The numbers of a table by the first column, of which there may be several of a name.
+fn rows(path: &Path) -> Vec<(String, Vec<String>)> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let row = |line: &str| {
+        let mut cells = line.split(',').map(str::to_string);
+        (cells.next().unwrap_or_default(), cells.collect())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// Marched to rest, and solved for: the same measures, to 5e-3 of the largest displacement.
+#[test]
+fn a_static_solution_is_where_a_damped_run_ends() {
+    let folder = tempfile::tempdir().expect("a folder");
+    taut(folder.path(), &["run", "lk-rectangle", "--quiet"]).with(0);
+    let told = taut(folder.path(), &["static", "lk-rectangle"]).with(0).stdout;
+    assert!(told.contains("of the load would move the body as a whole"), "{told}");
+    let run = crate::json(&folder.path().join("out/lk-rectangle/summary.json"));
+    let solved = rows(&folder.path().join("out/lk-rectangle-static/measured.csv"));
+    assert!(solved.len() >= 8);
+    for (name, row) in solved {
+        let (marched, found) = (
+            run["measured"][&name]["value"].as_f64().expect("measured"),
+            row[0].parse::<f64>().expect("a number"),
+        );
+        let scale = if name.starts_with("largest") { marched } else { 1.0 };
+        assert!((marched - found).abs() < 5e-3 * scale, "{name}: {marched} and {found}");
+    }
+    let again = taut(folder.path(), &["static", "lk-rectangle"]).with(2).stderr;
+    assert!(again.contains("lk-rectangle-static"), "{again}");
+}
+
+/// Modes of the annulus: finite elements have 150.9 Hz twice (n = 2) and 356.0 Hz (breathing); with 36 x 5 particles another program for the same
+/// equations has 133 +- 5 and 344 +- 10 Hz.
+#[test]
+fn modes_of_the_annulus() {
+    let folder = tempfile::tempdir().expect("a folder");
+    taut(folder.path(), &["modes", "lk-collision", "--count", "16"]).with(0);
+    let out = folder.path().join("out/lk-collision-modes");
+    let all = rows(&out.join("modes.csv"));
+    let number = |row: &[String], k: usize| row[k].parse::<f64>().expect("a number");
+    let of = |body: &str| -> Vec<(f64, f64, f64)> {
+        let mine = all.iter().filter(|(_, row)| row[0] == body);
+        mine.map(|(_, row)| (number(row, 1), number(row, 3), number(row, 4))).collect()
+    };
+    for body in ["annulus", "block"] {
+        let rigid = of(body).iter().filter(|mode| mode.2 > 0.9).count();
+        assert_eq!(rigid, 3, "two translations and what is nearly a turn: {all:?}");
+    }
+    let smooth: Vec<f64> = of("annulus").iter().filter(|m| m.2 < 0.9 && m.1 < 0.2).map(|m| m.0).collect();
+    assert!((smooth[0] - 133.0).abs() < 5.0 && (smooth[1] - 133.0).abs() < 5.0, "{smooth:?}");
+    assert!(smooth.iter().any(|f| (f - 344.0).abs() < 10.0), "{smooth:?}");
+    assert!(out.join("particles/particles.pvd").is_file() && out.join("mode-04.png").is_file());
+}
+
+#[test]
+fn modes_are_those_of_small_strain() {
+    let folder = with_case(BLOCK);
+    let told = taut(folder.path(), &["modes", "case.toml"]).with(2).stderr;
+    assert!(told.contains("`block` is not solved by small-strain") && told.contains("hint"), "{told}");
+    assert!(!folder.path().join("out").exists(), "nothing was made");
+}
+
+/// The limits of the plate of the small-strain paper, by another program: 2.355e-3 s with a Gaussian of one spacing; Eq. 15 says 3.14e-3 s.
+#[test]
+fn limits_stand_side_by_side() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let told = taut(folder.path(), &["stability", "lk-stability", "--set", "parameters.resolution=20"])
+        .with(0)
+        .stdout;
+    let value = |what: &str| -> f64 {
+        let line = told.lines().find(|line| line.contains(what)).unwrap_or_else(|| panic!("{what}: {told}"));
+        line.split_whitespace()
+            .rev()
+            .nth(usize::from(line.contains("of 2/sqrt")) * 3 + 1)
+            .and_then(|n| n.parse().ok())
+            .unwrap_or_else(|| panic!("{line}"))
+    };
+    let (paper, operator) = (value("Eq. 15"), value("as it is"));
+    assert!((paper / 3.14e-3 - 1.0).abs() < 2e-3 && (operator / 2.355e-3 - 1.0).abs() < 1e-3, "{told}");
+    assert!((value("running") / operator - 1.0).abs() < 5e-3, "{told}");
+    let widths = rows(&folder.path().join("out/lk-stability-stability/smoothing.csv"));
+    let least = |column: usize| {
+        let of = |row: &(String, Vec<String>)| row.1[column].parse::<f64>().expect("a number");
+        let row = widths.iter().min_by(|a, b| of(a).total_cmp(&of(b))).expect("rows");
+        row.0.parse::<f64>().expect("a width")
+    };
+    assert!((0.8..=0.95).contains(&least(0)) && (0.7..=0.8).contains(&least(1)), "minima of Fig. 16");
+}
+
+/// The block is no vibration of one frequency, but its first one is a longitudinal wave: 4 x 2 cm at 242 m/s and less.
+#[test]
+fn a_spectrum_of_a_run() {
+    let folder = with_case(&BLOCK.replace("end = \"0.1 ms\"", "end = \"3 ms\""));
+    taut(folder.path(), &["run", "case.toml", "--quiet"]).with(0);
+    let told = taut(folder.path(), &["spectrum", "out/block", "tip"]).with(0).stdout;
+    assert!(told.contains("resolution") && told.contains("Hz +-"), "{told}");
+    for file in ["spectrum-tip.csv", "spectrum-tip.svg", "spectrum-tip-peaks.csv"] {
+        assert!(folder.path().join("out/block").join(file).is_file(), "{file}");
+    }
+    let wrong = taut(folder.path(), &["spectrum", "out/block", "top"]).with(2).stderr;
+    assert!(wrong.contains("probes of this run: tip"), "{wrong}");
+    let short = taut(folder.path(), &["spectrum", "out/block", "tip", "--from", "2"]).with(2).stderr;
+    assert!(short.contains("fewer than eight samples"), "{short}");
+}
