@@ -47,8 +47,8 @@ pub use checked::{
     Axis, Body, Boundary, Calibration, Case, Compared, Comparison, Constraint, Contact, Course, Curves,
     Damping, Elastic, Extremum, Family, Feature, FieldExpression, Fill, Formulation, Gravity, History,
     Initial, Kernel, Load, LoadKind, March, Material, Measure, MeasureKind, MeshFile, Model, Monitor,
-    Normalisation, Plane, Probe, Quantity, Scheme, ShapeSpec, Site, Spot, Statics, Statistic, StepRule,
-    Stepping, Time, Tool, Turn, VectorField,
+    Normalisation, Plane, Probe, Quantity, Saved, Scheme, ShapeSpec, Site, Spot, Statics, Statistic,
+    StepRule, Stepping, Time, Tool, Turn, VectorField,
 };
 pub use diagnostic::{CaseError, Diagnostic};
 pub use explain::explain;

@@ -49,6 +49,7 @@ const VALUES: &[&str] = &[
     "\"free\"",
     "\"lattice\"",
     "\"concentric\"",
+    "\"fitted\"",
     "\"10 MPa\"",
     "\"1 mm\"",
     "\"1e300 km\"",

@@ -21,7 +21,7 @@ fn rings_are_read_in_si() {
     let scheme = Scheme { formulation: Formulation::UlNonHourglass, smoothing: 1.3, cfl: 0.4, march };
     assert_eq!(case.bodies[0].scheme, scheme);
     let ring = ShapeSpec::Ring { center: [-0.045, 0.0, 0.0], inner: 0.03, outer: 0.04 };
-    assert_eq!((&case.bodies[0].shape, case.bodies[0].fill), (&ring, Fill::Concentric));
+    assert_eq!((&case.bodies[0].shape, &case.bodies[0].fill), (&ring, &Fill::Concentric));
     assert_eq!(case.bodies[1].velocity.eval([0.0; 3], 0.0), [-0.06 * c0, 0.0, 0.0]);
     let names: Vec<&str> = case.parameters.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["resolution", "E", "nu", "rho", "wall", "dp", "c0", "v0"]);
@@ -216,7 +216,7 @@ fn the_text_as_run_says_the_same_without_overrides() {
         let first = parse_set(text, &[set]).expect("right");
         let second = parse(first.case_text_as_run()).expect("right");
         let show = |case: &Case| {
-            let bodies: Vec<_> = case.bodies.iter().map(|b| (&b.name, &b.shape, b.fill, b.scheme)).collect();
+            let bodies: Vec<_> = case.bodies.iter().map(|b| (&b.name, &b.shape, &b.fill, b.scheme)).collect();
             format!("{:?}", (&case.title, &case.parameters, bodies, case.time, &case.measures, &case.regions))
         };
         assert_eq!(show(&first), show(&second), "{}", first.case_text_as_run());

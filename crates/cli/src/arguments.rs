@@ -32,6 +32,10 @@ pub enum Command {
         #[arg(default_value = "my-case")]
         name: String,
     },
+    /// Make the particles of a case or of a shape, and save them with a picture and how good they are
+    Particles(ParticleOptions),
+    /// Write the surface of a stent as STL, FILE.stl; nothing is overwritten
+    Surface(SurfaceOptions),
     /// Tell what is in a file of triangles (STL, OBJ), and whether it is a body: in the file's own unit of length
     Mesh {
         /// The file
@@ -71,6 +75,37 @@ pub struct CaseOptions {
     /// Override the formulation of every deformable body
     #[arg(long, value_name = "NAME")]
     pub formulation: Option<String>,
+}
+
+/// Which surface to write.
+#[derive(Debug, Args)]
+pub struct SurfaceOptions {
+    /// A case file, a built-in case, or a shape as in a case file
+    #[arg(value_name = "CASE|SHAPE")]
+    pub what: String,
+    /// Where it goes: FILE.stl; nothing is overwritten
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub out: PathBuf,
+    /// Override a value of the case file, for instance --set parameters.strut=0.2
+    #[arg(long = "set", value_name = "a.b=value")]
+    pub set: Vec<String>,
+}
+
+/// Which particles to make.
+#[derive(Debug, Args)]
+pub struct ParticleOptions {
+    /// A case file, a built-in case, or a shape as in a case file: '{ ball = { center = [0, 0, 0], radius = "1 cm" } }'
+    #[arg(value_name = "CASE|SHAPE")]
+    pub what: String,
+    /// Where they go: FILE.vtp, with the picture FILE.png beside it; nothing is overwritten
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub out: PathBuf,
+    /// Distance between particles of a shape, for instance "1 mm"
+    #[arg(long, value_name = "LENGTH")]
+    pub spacing: Option<String>,
+    /// Override a value of the case file, for instance --set parameters.resolution=20
+    #[arg(long = "set", value_name = "a.b=value")]
+    pub set: Vec<String>,
 }
 
 /// Numbers that sums over neighbours are made of; what is integrated in time is double always.

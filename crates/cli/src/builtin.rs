@@ -11,6 +11,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("tl-bending-column", include_str!("../../../cases/tl-bending-column.toml")),
     ("tl-twisting-column", include_str!("../../../cases/tl-twisting-column.toml")),
     ("tl-punch", include_str!("../../../cases/tl-punch.toml")),
+    ("tl-stent", include_str!("../../../cases/tl-stent.toml")),
     ("contact-hertz", include_str!("../../../cases/contact-hertz.toml")),
     ("contact-sphere", include_str!("../../../cases/contact-sphere.toml")),
     ("contact-bars", include_str!("../../../cases/contact-bars.toml")),
@@ -48,18 +49,12 @@ const CURVES: &[(&str, &str)] = &[
     ),
 ];
 
-/// Benchmarks of the papers that are not there yet.
-const LATER: &[&str] = &["tl-stent"];
-
 /// Reads and checks the case that the options name.
 pub fn read(options: &CaseOptions) -> Result<Case, Failure> {
     let overrides = Overrides { set: options.set.clone(), formulation: options.formulation.clone() };
     let read = match CASES.iter().find(|(name, _)| *name == options.case) {
         Some((name, text)) => Case::parse(&format!("{name}.toml (built in)"), text, &overrides)
             .and_then(|case| case.with_references(curves)),
-        None if LATER.contains(&options.case.as_str()) => {
-            return Err(Failure::Input(format!("the benchmark {} comes in a later version.", options.case)));
-        }
         None if !Path::new(&options.case).exists() => return Err(unknown(&options.case)),
         None => Case::read(Path::new(&options.case), &overrides),
     };

@@ -14,6 +14,7 @@ mod list;
 pub mod memory;
 mod mesh;
 mod new;
+mod particles;
 mod pictures;
 mod progress;
 mod rebuild;
@@ -21,6 +22,7 @@ mod run;
 mod schema;
 mod signals;
 mod study;
+mod surface;
 mod validate;
 
 use arguments::{Arguments, Command};
@@ -59,6 +61,8 @@ where
         Command::Check(options) => check::check(&options),
         Command::Explain(options) => explain::explain(&options),
         Command::New { name } => new::new(&name),
+        Command::Surface(options) => surface::surface(&options),
+        Command::Particles(options) => particles::particles(&options),
         Command::Mesh { file } => mesh::mesh(&file),
         Command::Schema { page } => schema::schema(page),
         Command::Validate(options) => validate::validate(&options),

@@ -20,18 +20,23 @@
 mod bounds;
 mod distance;
 mod fill;
+mod measure;
 mod mesh;
 mod point;
 mod polygon;
 mod problem;
 mod shape;
+mod stent;
+mod stl;
 mod validate;
 
 pub use bounds::Bounds;
-pub use fill::{Fill, FillError, MAX_PARTICLES, Points, fill, reckon};
+pub use fill::{Fill, FillError, Fit, MAX_PARTICLES, Points, Quality, fill, fit, reckon, thickness};
 pub use mesh::{
     Crossings, Hole, MAX_COMPONENTS, MAX_TRIANGLES, Mended, Mesh, MeshError, MeshFormat, MeshReport, Thin,
 };
 pub use point::{Dimension, Point};
 pub use problem::{ShapeError, ShapeProblem};
 pub use shape::Shape;
+pub use stent::Stent;
+pub use stl::stl;

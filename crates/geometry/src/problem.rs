@@ -59,6 +59,28 @@ pub enum ShapeProblem {
         /// The radius of the outside.
         outer: f64,
     },
+    /// Too few or too many parts of a kind.
+    #[error("`{name}` is {count}; it must be from {least} to {most}")]
+    Count {
+        /// The entry.
+        name: &'static str,
+        /// Its value.
+        count: usize,
+        /// The fewest.
+        least: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A part is larger than what is left for it.
+    #[error("`{name}` is {value}, and the other measures leave room for less than {room}")]
+    NoRoom {
+        /// The entry.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be smaller than.
+        room: f64,
+    },
     /// A cylinder has both ends at the same point.
     #[error("`from` and `to` are the same point; move them apart by the length of the cylinder")]
     NoLength,

@@ -3,6 +3,7 @@
 use crate::bounds::Bounds;
 use crate::mesh::Mesh;
 use crate::point::{Point, Turn, add, stretch, sub};
+use crate::stent::Stent;
 use crate::{distance, polygon};
 
 /// A region of space, or of the plane z = 0. Lengths in metres; the boundary belongs to the region.
@@ -47,6 +48,8 @@ pub enum Shape {
         /// Lowest and highest z of the prism: needed in 3D, absent in 2D.
         height: Option<[f64; 2]>,
     },
+    /// A tube cut into cells. Only in 3D.
+    Stent(Stent),
     /// What a surface of triangles encloses. Only in 3D.
     Mesh(Mesh),
     /// What lies in any of the shapes.
@@ -88,7 +91,7 @@ impl Shape {
     /// The signed distance from `x` to the boundary, in metres, negative inside.
     ///
     /// Exact for boxes, balls, rings, cylinders, polygons and meshes (see [`Mesh::distance`]), moved, turned and magnified as they may be. For
-    /// unions, intersections and differences the magnitude is the true distance or less: a ball of that
+    /// stents, unions, intersections and differences the magnitude is the true distance or less: a ball of that
     /// radius around `x` does not cross the boundary. Where surfaces of the combined shapes coincide, as
     /// where two boxes or two cuts are joined at a face, it is 0 also off the boundary.
     pub fn distance(&self, x: Point) -> f64 {
@@ -100,6 +103,7 @@ impl Shape {
             }
             Self::Cylinder { from, to, radius } => distance::cylinder([*from, *to], *radius, x),
             Self::Polygon { points, height } => distance::prism(points, *height, x),
+            Self::Stent(stent) => stent.distance(x),
             Self::Mesh(mesh) => mesh.distance(x),
             Self::Union(shapes) => nearest(shapes, x),
             Self::Intersection(shapes) => {
@@ -128,6 +132,7 @@ impl Shape {
             Self::Ring { center, outer, .. } => Bounds { min: *center, max: *center }.grown(*outer),
             Self::Cylinder { from, to, radius } => distance::cylinder_bounds([*from, *to], *radius),
             Self::Polygon { points, height } => polygon::bounds(points, height.unwrap_or([0.0; 2])),
+            Self::Stent(stent) => stent.bounds(),
             Self::Mesh(mesh) => mesh.bounds(),
             Self::Union(shapes) => shapes.iter().fold(Bounds::around([]), |b, s| b.join(&s.bounds())),
             Self::Intersection(shapes) => {
@@ -150,6 +155,7 @@ impl Shape {
             Self::Ring { .. } => "ring",
             Self::Cylinder { .. } => "cylinder",
             Self::Polygon { .. } => "polygon",
+            Self::Stent(_) => "stent",
             Self::Mesh(_) => "mesh",
             Self::Union(_) => "union",
             Self::Intersection(_) => "intersection",

@@ -66,6 +66,10 @@ fn own_problem(shape: &Shape, dimension: Dimension) -> Result<(), Problem> {
             corners(points)?;
             prism(*height, dimension)
         }
+        Shape::Stent(stent) => match stent.problem() {
+            _ if dimension == Two => Err(Problem::OnlyInSpace),
+            problem => problem.map_or(Ok(()), Err),
+        },
         Shape::Mesh(_) if dimension == Two => Err(Problem::MeshInPlane),
         Shape::Mesh(_) => Ok(()),
         Shape::Union(shapes) | Shape::Intersection(shapes) if shapes.is_empty() => Err(Problem::Nothing),

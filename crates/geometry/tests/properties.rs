@@ -1,6 +1,6 @@
 //! What must hold for every shape, on random ones.
 
-use geometry::{Dimension, Fill, MAX_PARTICLES, Point, Shape, fill};
+use geometry::{Dimension, Fill, MAX_PARTICLES, Point, Shape, Stent, fill};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -28,6 +28,21 @@ fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     })
 }
 
+fn stent() -> impl Strategy<Value = Shape> {
+    let share = || 0.1..0.9;
+    let cells = (2..9_usize, 1..5_usize);
+    (0.5..6.0, 1.0..4.0, share(), cells, share(), share()).prop_map(
+        |(length, diameter, wall, (around, along), strut, bridge): (f64, f64, f64, _, f64, f64)| {
+            // Shares of the room that is left, in the order in which it is taken.
+            let thickness = 0.2 * wall * diameter;
+            let half: f64 = 0.5 * PI * (diameter - thickness) / around as f64;
+            let strut = 0.3 * strut * half.min(length / (2 * along) as f64);
+            let bridge = 0.5 * bridge * (length - strut) / (2 * along) as f64;
+            Shape::Stent(Stent { length, diameter, thickness, around, along, strut, bridge })
+        },
+    )
+}
+
 fn primitive() -> impl Strategy<Value = Shape> {
     let size = || 0.1..3.0;
     prop_oneof![
@@ -53,7 +68,7 @@ fn motion(shape: impl Strategy<Value = Shape>) -> impl Strategy<Value = Shape> {
 }
 
 fn any_shape() -> impl Strategy<Value = Shape> {
-    let leaf = prop_oneof![primitive(), motion(primitive())];
+    let leaf = prop_oneof![primitive(), motion(primitive()), stent()];
     leaf.prop_recursive(3, 12, 3, |inner| {
         let list = prop::collection::vec(inner.clone(), 1..3);
         prop_oneof![
@@ -184,7 +199,7 @@ proptest! {
             let _ = (shape.distance(x), shape.contains(x), shape.bounds());
             // a spacing that a valid shape could really be filled with would take long, and is not garbage
             let spacing = if valid { spacing.abs().min(1e-300) } else { spacing };
-            for how in [Fill::Lattice { origin }, Fill::Concentric] {
+            for how in [Fill::Lattice { origin }, Fill::Concentric, Fill::Fitted] {
                 let filled = fill(&shape, &how, spacing, dimension);
                 prop_assert!(filled.is_err() || valid && filled.unwrap().len() <= MAX_PARTICLES);
             }

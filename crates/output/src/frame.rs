@@ -10,6 +10,8 @@ use crate::OutputError;
 pub enum Values {
     /// Real numbers; files hold them in single precision.
     F64(Vec<f64>),
+    /// Real numbers that files hold in double precision.
+    Exact(Vec<f64>),
     /// Real numbers in single precision.
     F32(Vec<f32>),
     /// Whole numbers.
@@ -24,7 +26,7 @@ impl Values {
     /// How many numbers there are: particles times components.
     pub fn len(&self) -> usize {
         match self {
-            Self::F64(values) => values.len(),
+            Self::F64(values) | Self::Exact(values) => values.len(),
             Self::F32(values) => values.len(),
             Self::I64(values) => values.len(),
             Self::Shared(values) => values.len(),
@@ -40,7 +42,7 @@ impl Values {
     /// All of them as `f64`.
     pub fn to_f64(&self) -> Vec<f64> {
         match self {
-            Self::F64(values) => values.clone(),
+            Self::F64(values) | Self::Exact(values) => values.clone(),
             Self::F32(values) => values.iter().map(|&value| f64::from(value)).collect(),
             Self::I64(values) => values.iter().map(|&value| value as f64).collect(),
             Self::Shared(values) => values.iter().map(|&value| f64::from(value)).collect(),

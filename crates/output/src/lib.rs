@@ -48,4 +48,4 @@ pub use probe::{Column, Mark, ProbeTable, Table, table_beside, table_path};
 pub use reference::Reference;
 pub use series::Series;
 pub use summary::Summary;
-pub use vtp::{FrameFile, Rehearsal};
+pub use vtp::{FrameFile, Rehearsal, write_frame};

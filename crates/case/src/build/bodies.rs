@@ -1,6 +1,6 @@
 //! Bodies as points, in the groups that one solver advances.
 
-use super::shapes;
+use super::{saved, shapes};
 use crate::{Body, Case, CaseError, Family, Fill, Place, ShapeSpec};
 use geometry::Shape;
 use taut::math::Vector;
@@ -73,24 +73,27 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
 /// Places and volumes of the particles of a shape.
 pub fn filled<const D: usize>(
     case: &Case,
-    (shape, fill): (&ShapeSpec, Fill),
+    (shape, fill): (&ShapeSpec, &Fill),
     (name, place): (&str, Place),
 ) -> Result<Vec<(Vector<f64, D>, f64)>, CaseError> {
+    let shape = shapes::shape(shape);
     let fill = match fill {
-        Fill::Lattice { origin } => geometry::Fill::Lattice { origin },
+        Fill::Lattice { origin } => geometry::Fill::Lattice { origin: *origin },
         Fill::Concentric => geometry::Fill::Concentric,
+        Fill::Fitted => geometry::Fill::Fitted,
+        Fill::Saved(saved) => return saved::filled(case, (&shape, saved), (name, place)),
         Fill::Polar { around, rings } => {
-            geometry::Fill::Polar { around: around as usize, rings: rings.map(|n| n as usize) }
+            geometry::Fill::Polar { around: *around as usize, rings: rings.map(|n| n as usize) }
         }
     };
-    let filled = geometry::fill(&shapes::shape(shape), &fill, case.spacing, shapes::dimension::<D>());
+    let filled = geometry::fill(&shape, &fill, case.spacing, shapes::dimension::<D>());
     let points = filled
         .map_err(|error| case.error_at(place, format!("body `{name}` cannot be filled: {error}"), None))?;
     Ok(points.x.iter().map(|&x| vector(x)).zip(points.volume).collect())
 }
 
 fn fill<const D: usize>(case: &Case, index: usize, body: &Body) -> Result<Vec<Point<D>>, CaseError> {
-    let points = filled::<D>(case, (&body.shape, body.fill), (&body.name, body.place))?;
+    let points = filled::<D>(case, (&body.shape, &body.fill), (&body.name, body.place))?;
     let mut out = Vec::with_capacity(points.len());
     for (at, volume) in points {
         let x = padded(at);

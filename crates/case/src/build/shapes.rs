@@ -23,6 +23,7 @@ pub fn shape(spec: &ShapeSpec) -> Shape {
         }
         ShapeSpec::Cylinder { from, to, radius } => Shape::Cylinder { from: *from, to: *to, radius: *radius },
         ShapeSpec::Polygon { points, height } => Shape::Polygon { points: points.clone(), height: *height },
+        ShapeSpec::Stent(stent) => Shape::Stent(*stent),
         ShapeSpec::Mesh { mesh, .. } => Shape::Mesh(mesh.clone()),
         ShapeSpec::Union(specs) => Shape::Union(all(specs)),
         ShapeSpec::Intersection(specs) => Shape::Intersection(all(specs)),

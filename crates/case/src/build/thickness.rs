@@ -1,11 +1,15 @@
 //! How many particles lie across the thinnest part of a body.
 
-use super::bodies::Group;
+use super::bodies::{Group, padded};
+use super::shapes::{dimension, shape};
 use crate::{Body, Case, Fill, ShapeSpec};
 use taut::simulation::Point;
 
 /// A part counts as thin if at least this share of the particles is in it: the last rows of something round do not.
 const SHARE: f64 = 0.03;
+
+/// Particles of a body that are asked how thick it is there, at most.
+const SAMPLE: usize = 4000;
 
 /// Particles across the thinnest part of each body, in the order of the case.
 pub fn across<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<usize> {
@@ -16,10 +20,24 @@ pub fn across<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Vec<usize
 }
 
 fn of_body<const D: usize>(case: &Case, body: &Body, points: &[&Point<D>]) -> usize {
-    match (body.fill, wall(&body.shape)) {
+    match (&body.fill, wall(&body.shape)) {
         (Fill::Concentric, Some(wall)) => ((wall / case.spacing).round() as usize).max(1),
+        (Fill::Fitted | Fill::Saved(_), _) => through(case, body, points),
         _ => on_lattice(points, case.spacing),
     }
+}
+
+/// From ways straight through the body, from particles at the surface: the smallest that a fair share of them has.
+fn through<const D: usize>(case: &Case, body: &Body, points: &[&Point<D>]) -> usize {
+    let shape = shape(&body.shape);
+    let most = points.len() as f64 * case.spacing;
+    let every = points.len().div_ceil(SAMPLE).max(1);
+    let way =
+        |p: &&Point<D>| geometry::thickness(&shape, padded(p.x), (case.spacing, most), dimension::<D>());
+    let mut ways: Vec<f64> = points.iter().step_by(every).filter_map(way).collect();
+    ways.sort_by(f64::total_cmp);
+    let thin = ways.get((SHARE * ways.len() as f64) as usize).map_or(0.0, |way| way / case.spacing);
+    (thin.round() as usize).clamp(1, points.len().max(1))
 }
 
 /// Thickness of the wall of a ring, or diameter of a ball, m.

@@ -13,7 +13,7 @@ const PIECES: f64 = 64.0;
 /// The particles of all tools, in the order of the file.
 pub fn tools<const D: usize>(case: &Case) -> Result<Vec<Vec<Point<D>>>, CaseError> {
     let fill = |(k, tool): (usize, &Tool)| {
-        let points = filled::<D>(case, (&tool.shape, tool.fill), (&tool.name, tool.place))?;
+        let points = filled::<D>(case, (&tool.shape, &tool.fill), (&tool.name, tool.place))?;
         let body = (case.bodies.len() + k) as u32;
         Ok(points.into_iter().map(|(x, volume)| Point { body, ..Point::at(x, volume) }).collect())
     };

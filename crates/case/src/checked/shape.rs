@@ -44,6 +44,8 @@ pub enum ShapeSpec {
         /// Lowest and highest z of the prism; `None` in 2D.
         height: Option<[f64; 2]>,
     },
+    /// 3D: a tube cut into cells.
+    Stent(geometry::Stent),
     /// 3D: what the triangles of a file enclose.
     Mesh {
         /// The path, as the case says it.

@@ -8,6 +8,7 @@ use crate::keys::{Key, shape};
 use crate::source::Place;
 use crate::units::Dimension;
 use crate::written::{Node, Section, Value};
+use geometry::{Dimension as Space, Shape, Stent};
 
 /// The shape of this kind; `place` is where the kind is named.
 pub(super) fn solid(
@@ -25,6 +26,8 @@ pub(super) fn solid(
         ("mesh", 3) => mesh(scope, section),
         ("mesh", _) => Err(only_3d(place, kind).help("in 2D draw its section as a `polygon`")),
         ("cylinder", _) => Err(only_3d(place, kind).help("its cross-section in 2D is a `ball` or a `box`")),
+        ("stent", 3) => stent(scope, section),
+        ("stent", _) => Err(only_3d(place, kind)),
         _ => polygon(scope, section),
     }
 }
@@ -80,6 +83,32 @@ fn cylinder(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnosti
         ));
     }
     Ok(ShapeSpec::Cylinder { from, to, radius: scope.need(section, &shape::RADIUS)? })
+}
+
+fn stent(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {
+    section.only_of(shape::keys("stent"))?;
+    let cells = |key: &Key| -> Result<usize, Diagnostic> {
+        let count = scope.need(section, key)?;
+        if count.fract() != 0.0 || count > Stent::MOST_CELLS as f64 {
+            let message =
+                format!("`{}` is {count}; give a whole number up to {}", key.name, Stent::MOST_CELLS);
+            return Err(Diagnostic::at(section.need(key.name)?.place, message));
+        }
+        Ok(count as usize)
+    };
+    let stent = Stent {
+        length: scope.need(section, &shape::STENT_LENGTH)?,
+        diameter: scope.need(section, &shape::DIAMETER)?,
+        thickness: scope.need(section, &shape::THICKNESS)?,
+        around: cells(&shape::AROUND)?,
+        along: cells(&shape::ALONG)?,
+        strut: scope.need(section, &shape::STRUT)?,
+        bridge: scope.need(section, &shape::BRIDGE)?,
+    };
+    match Shape::Stent(stent).validate(Space::Three) {
+        Ok(()) => Ok(ShapeSpec::Stent(stent)),
+        Err(error) => Err(Diagnostic::at(section.place, error.to_string())),
+    }
 }
 
 fn polygon(scope: &Scope, section: &Section<'_>) -> Result<ShapeSpec, Diagnostic> {

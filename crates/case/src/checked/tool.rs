@@ -1,7 +1,7 @@
 //! `[[tool]]`: rigid bodies that move as they are told.
 
-use super::body::{Fill, read_fill};
 use super::field::{FieldExpression, VectorField};
+use super::fill::{self, Fill};
 use super::names::part_name;
 use super::scope::{Scope, place_of};
 use super::shape::ShapeSpec;
@@ -58,7 +58,7 @@ pub(crate) fn read(
     section.only(keys::TABLE.keys, problems);
     let name = problems.keep(part_name(section));
     let shape = problems.keep(section.need(keys::SHAPE.name).and_then(|node| shapes.shape(node)));
-    let fill = problems.keep(read_fill(scope, section.get(keys::FILL.name)));
+    let fill = problems.keep(fill::read(scope, section.get(keys::FILL.name)));
     let course = problems.keep(course(scope, section));
     let turn = problems.keep(turn(shapes, section));
     Some(Tool {

@@ -80,10 +80,12 @@ fn body(case: &Case, index: usize) -> String {
         Family::Total => "total Lagrangian",
         Family::Updated => "updated Lagrangian",
     };
-    let fill = match body.fill {
-        Fill::Lattice { .. } => "on a lattice",
-        Fill::Concentric => "in layers around its centre",
-        Fill::Polar { .. } => "in rings of as many particles",
+    let fill = match &body.fill {
+        Fill::Lattice { .. } => "on a lattice".to_string(),
+        Fill::Concentric => "in layers around its centre".to_string(),
+        Fill::Polar { .. } => "in rings of as many particles".to_string(),
+        Fill::Fitted => "with particles that fit its surface".to_string(),
+        Fill::Saved(saved) => format!("with the particles of {}", saved.file),
     };
     let start = match still(&body.velocity) {
         true => "starts at rest".to_string(),
@@ -175,6 +177,9 @@ fn shape(spec: &ShapeSpec) -> String {
         ShapeSpec::Ring { inner, .. } => format!("a ring (inner radius {})", length(*inner)),
         ShapeSpec::Cylinder { .. } => "a cylinder".into(),
         ShapeSpec::Polygon { points, .. } => format!("a polygon of {} corners", points.len()),
+        ShapeSpec::Stent(s) => {
+            format!("a stent ({} cells around, {} along, struts {} wide)", s.around, s.along, length(s.strut))
+        }
         ShapeSpec::Mesh { file, mesh } => format!("the mesh {file} of {} triangles", mesh.faces().len()),
         ShapeSpec::Union(parts) => format!("the union of {}", shapes(parts)),
         ShapeSpec::Intersection(parts) => format!("what is common to {}", shapes(parts)),

@@ -142,17 +142,18 @@ fn words(choices: &[Choice]) -> Vec<&'static str> {
 }
 
 fn filling() -> Value {
-    let one = |name: &str, keys: &[Key]| {
+    let one = |name: &str, value: Value| {
         json!({
             "type": "object",
             "additionalProperties": false,
-            "properties": { name: object(keys) },
+            "properties": { name: value },
             "required": [name],
         })
     };
-    let (moved, polar) =
-        (one(fill::LATTICE, &[fill::ORIGIN]), one(fill::POLAR, &[fill::AROUND, fill::RINGS]));
-    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, polar] })
+    let moved = one(fill::LATTICE, Value::Object(object(&[fill::ORIGIN])));
+    let polar = one(fill::POLAR, Value::Object(object(&[fill::AROUND, fill::RINGS])));
+    let saved = one(fill::PARTICLES, json!({ "type": "string" }));
+    json!({ "anyOf": [{ "enum": words(fill::CHOICES) }, moved, polar, saved] })
 }
 
 fn shape() -> Value {

@@ -30,6 +30,18 @@ pub(crate) mod shape {
         Need::Optional,
         "Lowest and highest z of the prism: required in 3D, refused in 2D.",
     );
+    pub(crate) const STENT_LENGTH: Key = required("length", LENGTH, "Length along x, from x = 0.");
+    pub(crate) const DIAMETER: Key = required("diameter", LENGTH, "Outer diameter.");
+    pub(crate) const THICKNESS: Key = required("thickness", LENGTH, "Thickness of the wall.");
+    const CELLS: Kind = Kind::Number(Dimension::NUMBER, Range::Positive);
+    pub(crate) const AROUND: Key = required("around", CELLS, "Cells around the axis, 2 to 1000.");
+    pub(crate) const ALONG: Key = required("along", CELLS, "Cells along the axis, 1 to 1000.");
+    pub(crate) const STRUT: Key = required("strut", LENGTH, "Width of struts and bridges.");
+    pub(crate) const BRIDGE: Key = required(
+        "bridge",
+        LENGTH,
+        "Length of the bridges along the axis, which join struts of neighbouring rows.",
+    );
     pub(crate) const FILE: Key = required(
         "file",
         Kind::Text,
@@ -66,6 +78,11 @@ pub(crate) mod shape {
         ("hollow-ball", "The same in 3D, by its own name.", &[CENTER, INNER, OUTER]),
         ("cylinder", "3D: a straight cylinder with flat ends.", &[FROM, TO, RADIUS]),
         ("polygon", "A closed polygon in x and y; in 3D the prism above it.", &[POINTS, HEIGHT]),
+        (
+            "stent",
+            "3D: a tube around the x axis with six-sided cells cut into it, in staggered rows; struts lead in zigzag from row to row. With an even number of cells along and around, a bridge of the middle row is where y is largest, and one where it is smallest.",
+            &[STENT_LENGTH, DIAMETER, THICKNESS, AROUND, ALONG, STRUT, BRIDGE],
+        ),
         ("mesh", "3D: what the triangles of a file enclose.", &[FILE, UNIT]),
         ("union", "Points in any of the shapes of a list.", &[]),
         ("intersection", "Points in all of the shapes of a list.", &[]),
@@ -107,6 +124,8 @@ pub(crate) mod fill {
     pub(crate) const POLAR: &str = "polar";
     pub(crate) const LATTICE: &str = "lattice";
     pub(crate) const CONCENTRIC: &str = "concentric";
+    pub(crate) const FITTED: &str = "fitted";
+    pub(crate) const PARTICLES: &str = "particles";
 
     /// The words.
     pub(crate) const CHOICES: &[Choice] = &[
@@ -115,5 +134,9 @@ pub(crate) mod fill {
             doc: "A square lattice through the origin; { lattice = { origin = [..] } } moves it.",
         },
         Choice { name: CONCENTRIC, doc: "Layers around the centre of a ring or ball." },
+        Choice {
+            name: FITTED,
+            doc: "Particles that settle until they are evenly spread, those at the surface half a spacing inside; `{ particles = \"FILE.vtp\" }` takes those of a file that `taut particles` wrote, as far as they lie in the shape.",
+        },
     ];
 }

@@ -8,6 +8,7 @@ mod diagnosis;
 mod divergence;
 mod loads;
 mod mesh;
+mod particles;
 mod report;
 mod results;
 mod resume;

@@ -1,16 +1,12 @@
 //! Particles at the cell centres of a lattice along the axes.
 
-use super::{FillError, Points, affordable, extent};
+use super::{FillError, Points, affordable, extent, near_enough};
 use crate::point::{Dimension, Point, Turn, add, scale, stretch, sub, unit};
 use crate::shape::Shape;
 
 /// Within this share of the spacing a particle counts as on the surface. Far above the rounding of coordinates,
-/// which `REACH` keeps below 1e-7 spacings, and far below what a discretisation can resolve.
+/// which the reach keeps below 1e-7 spacings, and far below what a discretisation can resolve.
 const ON_SURFACE: f64 = 1e-6;
-
-/// The farthest that a particle may be from the origin of the lattice or of space, in spacings: 1e9 times
-/// the relative rounding 1.1e-16 is 1e-7.
-const REACH: f64 = 1e9;
 
 pub(super) fn lattice(
     shape: &Shape,
@@ -47,12 +43,7 @@ fn axes(
         cells *= last - first;
     }
     affordable(cells, shape, spacing, dimension)?;
-    let farthest = (0..dimension.axes())
-        .flat_map(|i| [bounds.min[i], bounds.max[i], bounds.min[i] - origin[i], bounds.max[i] - origin[i]])
-        .fold(0.0_f64, |m, x| m.max(x.abs()));
-    if farthest > REACH * spacing {
-        return Err(FillError::TooFar { distance: farthest, spacing });
-    }
+    near_enough(shape, origin, spacing, dimension)?;
     let centres = |i: usize| match dimension {
         Dimension::Two if i == 2 => vec![0.0],
         _ => (range[i][0] as i64..range[i][1] as i64)
@@ -100,7 +91,7 @@ fn inside(
 fn owns(shape: &Shape, x: Point, near: f64) -> bool {
     match shape {
         Shape::Box { .. } | Shape::Polygon { .. } | Shape::Mesh(_) => shape.contains(x.map(|c| c + near)),
-        Shape::Ball { .. } | Shape::Ring { .. } => shape.distance(x) < -near,
+        Shape::Ball { .. } | Shape::Ring { .. } | Shape::Stent(_) => shape.distance(x) < -near,
         Shape::Cylinder { from, to, radius } => {
             let forward = scale(unit(sub(*to, *from)).unwrap_or([0.0; 3]), near);
             Shape::Cylinder { from: *from, to: *to, radius: radius - near }.contains(add(x, forward))

@@ -1,9 +1,11 @@
 //! Filling a shape with particles.
 
 mod concentric;
+mod fitted;
 mod lattice;
 mod reckon;
 
+pub use fitted::{Fit, Quality, fit, thickness};
 pub use reckon::reckon;
 
 use crate::point::{Dimension, Point};
@@ -64,6 +66,10 @@ pub enum Fill {
     /// `4 pi r^2 dr` is its volume and `round(4 pi r^2 / spacing^2)` particles on a Fibonacci spiral.
     /// The particles of a layer share its exact volume. No particle sits at the centre of a ball.
     Concentric,
+    /// Fitted to the surface: as many particles as the body has cells settle until the sum of V grad W, closed by the integral of grad W
+    /// over the outside of the body, is next to nothing everywhere, while those at the surface stay half a spacing inside. All
+    /// have the same volume, and together that of the body.
+    Fitted,
     /// The layers of [`Fill::Concentric`] in 2D with as many particles each, one behind the other: row j at the angle
     /// `2 pi j / around`, with its exact sector of the layer. Particles are the farther apart the farther out they are.
     Polar {
@@ -149,15 +155,37 @@ fn times(extent: &[f64]) -> String {
 /// # Errors
 /// See [`FillError`]; the number of particles is estimated before memory is taken for them.
 pub fn fill(shape: &Shape, how: &Fill, spacing: f64, dimension: Dimension) -> Result<Points, FillError> {
-    if !(spacing.is_finite() && spacing > 0.0) {
-        return Err(FillError::Spacing(spacing));
-    }
-    shape.validate(dimension)?;
+    checked(shape, spacing, dimension)?;
     match *how {
         Fill::Lattice { origin } => lattice::lattice(shape, origin, spacing, dimension),
         Fill::Concentric => concentric::concentric(shape, spacing, dimension),
+        Fill::Fitted => fitted::fitted(shape, spacing, dimension),
         Fill::Polar { around, rings } => concentric::polar(shape, (around, rings), spacing, dimension),
     }
+}
+
+/// Refuses what is no spacing and no shape.
+fn checked(shape: &Shape, spacing: f64, dimension: Dimension) -> Result<(), FillError> {
+    if !(spacing.is_finite() && spacing > 0.0) {
+        return Err(FillError::Spacing(spacing));
+    }
+    Ok(shape.validate(dimension)?)
+}
+
+/// The farthest that a particle may be from the origin of the lattice or of space, in spacings: 1e9 times
+/// the relative rounding 1.1e-16 is 1e-7.
+const REACH: f64 = 1e9;
+
+/// Refuses shapes that are too far away.
+fn near_enough(shape: &Shape, origin: Point, spacing: f64, dimension: Dimension) -> Result<(), FillError> {
+    let bounds = shape.bounds();
+    let farthest = (0..dimension.axes())
+        .flat_map(|i| [bounds.min[i], bounds.max[i], bounds.min[i] - origin[i], bounds.max[i] - origin[i]])
+        .fold(0.0_f64, |m, x| m.max(x.abs()));
+    if farthest > REACH * spacing {
+        return Err(FillError::TooFar { distance: farthest, spacing });
+    }
+    Ok(())
 }
 
 /// The lengths of the bounds along the axes of the dimension.

@@ -23,6 +23,7 @@ mod read;
 pub use read::FrameFile;
 
 use std::io;
+use std::path::Path;
 use std::sync::Arc;
 
 use flate2::Compression;
@@ -61,6 +62,16 @@ impl Rehearsal {
         let bytes = self.0.encode_with(frame, changing(frame, steps));
         bytes.map(|bytes| bytes.len()).map_err(|cause| OutputError::inconsistent("a frame", cause))
     }
+}
+
+/// Writes one frame as a file of its own.
+///
+/// # Errors
+/// [`OutputError`] if the frame is inconsistent or the file cannot be written.
+pub fn write_frame(path: &Path, frame: &Frame) -> Result<(), OutputError> {
+    frame.check()?;
+    let bytes = Encoder::default().encode(frame).map_err(|cause| OutputError::write(path, cause))?;
+    crate::write_atomically(path, &bytes)
 }
 
 /// Makes the bytes of files; keeps the compressed bytes of arrays that last.
@@ -188,6 +199,7 @@ impl<'a> Plain<'a> {
     fn quantity(array: &'a Array) -> Self {
         let (kind, numbers) = match &array.values {
             Values::F64(values) => (Kind::Float32, Numbers::Rounded(values)),
+            Values::Exact(values) => (Kind::Float64, Numbers::F64(values)),
             Values::F32(values) => (Kind::Float32, Numbers::F32(values)),
             Values::I64(values) => (Kind::Int64, Numbers::I64(values)),
             Values::Shared(values) => (Kind::Float32, Numbers::Lasting(Key::Shared(Arc::clone(values)))),

@@ -31,6 +31,14 @@ impl FrameFile {
             return Err(OutputError::read(path, "it is no ordinary file"));
         }
         let bytes = std::fs::read(path).map_err(|cause| OutputError::read(path, cause))?;
+        Self::of(path, bytes)
+    }
+
+    /// The same of the bytes of a file, which is called so.
+    ///
+    /// # Errors
+    /// [`OutputError::Read`] if it is no such file.
+    pub fn of(path: &Path, bytes: Vec<u8>) -> Result<Self, OutputError> {
         Self::parse(path, bytes).map_err(|problem| OutputError::read(path, problem))
     }
 
