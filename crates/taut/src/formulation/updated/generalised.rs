@@ -1,6 +1,6 @@
 //! The generalised non-hourglass formulation, `ul-generalised` (Zhang, Wu, Lourenco and Hu 2025), for elastic solids.
 
-use super::integrated::{RateSum, Rates, state};
+use super::integrated::{Rates, state};
 use super::kick::{Kick, Push};
 use super::motion::{Drift, MomentSum};
 use super::pressure::damp;
@@ -64,6 +64,8 @@ record! {
     }
     /// What the force needs.
     Pressed { x: Position, v: Velocity, p: Pressure, z: Impedance, q: NominalStress, body: Body }
+    /// What the rates need.
+    Flow { v: Velocity, p: Pressure, body: Body }
     /// A particle before.
     Before {
         f: DeformationGradient, s: ShearStress, axial: AxialShearStress, shear: ShearAcceleration,
@@ -128,8 +130,7 @@ impl<const D: usize> Update<D> for Carry<'_> {
 }
 
 /// The force sum: (Q_a + Q_b) . grad W V_b inside a body, pressure between bodies, dissipation everywhere. Bodies push and do not pull: two rings
-/// that part would hold on to each other with the tension of their surfaces. What they expand each other by as they part is then paid by nobody
-/// where that tension is: the rings of UL section 6.3 gain 4 per cent of their energy.
+/// that part would hold on to each other with the tension of their surfaces.
 struct Momentum;
 
 impl<const D: usize> PairSum<D> for Momentum {
@@ -154,6 +155,31 @@ impl<const D: usize> PairSum<D> for Momentum {
     }
 }
 
+/// Compression by other bodies, and the gradient of velocity inside of the own one. Bodies that part with no pressure between them do not
+/// expand each other, as they do not pull: what is stored in pressure is what forces have put in.
+struct RateSum;
+
+impl<const D: usize> PairSum<D> for RateSum {
+    type Reads = Flow<f64, D>;
+    type Adds = Rates<f64, D>;
+    const DIRECTED: bool = true;
+
+    #[inline(always)]
+    fn add<S: Real, const M: u8>(
+        &self,
+        sum: &mut Rates<S, D>,
+        (a, b): (&Flow<S, D>, &Flow<S, D>),
+        ab: &Pair<S, D, M>,
+        _: &Now<S>,
+    ) {
+        let (v, inside) = (a.v - b.v, same_body(a.body, b.body));
+        let approach = S::select(v.dot(ab.e).lt(S::zero()), S::one(), S::zero());
+        let met = S::select(S::zero().lt(a.p + b.p), S::one(), approach);
+        ab.divergence(&mut sum.compression, v.times((S::one() - inside) * met));
+        ab.outer(&mut sum.l, v.times(-inside));
+    }
+}
+
 /// New rates, and the second half of the step with them.
 struct Follow<'a>(&'a Generalised);
 
@@ -168,8 +194,7 @@ impl<const D: usize> Update<D> for Follow<'_> {
         let rate = sum.l.mul(a.correction);
         let from = Carried { f: a.f, s: a.s, axial: a.axial, shear: a.shear };
         let Carried { f, s, axial, shear } = self.0.carry(from, (rate, a.g), half);
-        // What approaches from other bodies is in the first sum only.
-        let compression = sum.compression + sum.l.trace() - rate.mul(f.inverse()).trace();
+        let compression = sum.compression - rate.mul(f.inverse()).trace();
         let density_rate = a.density * compression;
         let density = half.mul_add(density_rate, a.density);
         After { f, s, axial, shear, density, density_rate, rate }
