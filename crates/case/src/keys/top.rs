@@ -223,7 +223,9 @@ pub(crate) mod time {
     pub(crate) const CFL: Key = Key::new(
         "cfl",
         Kind::Number(Dimension::NUMBER, Range::Share),
-        Need::Default("0.6 total Lagrangian, 0.4 updated Lagrangian and tl-ganzenmueller; 0.8 for small-strain"),
+        Need::Default(
+            "0.6 total Lagrangian, 0.4 updated Lagrangian and tl-ganzenmueller; 0.8 for small-strain",
+        ),
         "Fraction of the stable time step that is taken.",
     );
     pub(crate) const STEP: Key = Key::new(
