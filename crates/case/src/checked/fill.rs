@@ -110,8 +110,11 @@ fn saved(scope: &Scope, node: &Node) -> Result<Fill, Diagnostic> {
     Ok(Fill::Saved(Arc::new(Saved { file: file.clone(), spacing, points })))
 }
 
+/// Positions, m, and volumes, m^3.
+type Placed = Vec<([f64; 3], f64)>;
+
 /// Spacing, positions and volumes of the particles of a file.
-fn stored(path: &Path, bytes: Vec<u8>) -> Result<(f64, Vec<([f64; 3], f64)>), String> {
+fn stored(path: &Path, bytes: Vec<u8>) -> Result<(f64, Placed), String> {
     let file = FrameFile::of(path, bytes).map_err(|error| error.to_string())?;
     let frame = file
         .frame(|name| ["Volume", "ParticleSpacing"].contains(&name))

@@ -58,7 +58,11 @@ impl Costs {
         })?;
         // A run that is over sooner makes none.
         let makes_any = rates.steps * rates.per_step > INTERVAL.as_secs_f64();
-        let checkpoint = if makes_any { median(|| Ok(drop(draft(simulation))))? } else { 0.0 };
+        let pack = || {
+            drop(draft(simulation));
+            Ok(())
+        };
+        let checkpoint = if makes_any { median(pack)? } else { 0.0 };
         Ok(Self { look, frame, checkpoint })
     }
 

@@ -26,7 +26,7 @@ impl Default for Shelf {
 pub struct UsedFile {
     /// Its path, as the case says it: relative to the case file.
     pub name: String,
-    /// [`output::hash`] of its bytes.
+    /// The hash of its bytes, as a manifest has it.
     pub hash: String,
     /// Where it lies.
     pub path: PathBuf,

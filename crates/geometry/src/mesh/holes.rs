@@ -69,7 +69,7 @@ fn loops(rims: &[Rim]) -> Vec<(u32, Vec<u32>)> {
         while let Some(&here) = path.last() {
             let first = rims.partition_point(|&(p, a, _)| (p, a) < (piece, here));
             let Some(next) = taken.get(first).map(|taken| first + taken) else { break };
-            if !rims.get(next).is_some_and(|&(p, a, _)| (p, a) == (piece, here)) {
+            if rims.get(next).is_none_or(|&(p, a, _)| (p, a) != (piece, here)) {
                 break;
             }
             taken[first] += 1;

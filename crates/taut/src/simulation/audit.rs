@@ -103,13 +103,16 @@ impl Fall {
     }
 }
 
+/// By solver and id of a particle: the constraints that hold it, by number, and which components.
+type Holders = HashMap<(usize, u32), Vec<(usize, [bool; 3])>>;
+
 /// All impulses of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
     /// Constraints: those that were named, and one for all that is held besides.
     grips: Vec<Grip>,
     /// Which of them holds which components of a particle, by its solver and id, where contact may press on it.
-    holders: HashMap<(usize, u32), Vec<(usize, [bool; 3])>>,
+    holders: Holders,
     /// By solver.
     loads: Vec<Load>,
     body_forces: Impulse,
@@ -257,8 +260,8 @@ impl Audit {
 }
 
 /// The constraints of every particle that has one.
-fn holders(grips: &[Grip]) -> HashMap<(usize, u32), Vec<(usize, [bool; 3])>> {
-    let mut holders: HashMap<(usize, u32), Vec<(usize, [bool; 3])>> = HashMap::new();
+fn holders(grips: &[Grip]) -> Holders {
+    let mut holders = Holders::new();
     for (number, grip) in grips.iter().enumerate() {
         for (solver, held) in &grip.parts {
             for (&id, &axes) in held.ids.iter().zip(&held.axes) {
