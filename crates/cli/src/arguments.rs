@@ -239,7 +239,7 @@ pub struct ValidateOptions {
     /// Benchmarks [default: all]
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
-    /// Also the long runs: about half an hour
+    /// Also the long runs: an hour and more for some benchmarks
     #[arg(long)]
     pub full: bool,
     /// One JSON array of rows instead of tables
