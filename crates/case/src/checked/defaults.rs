@@ -124,8 +124,9 @@ mod tests {
         assert_eq!(said(&case::SMOOTHING), both(smoothing));
         assert_eq!(
             said(&time::CFL),
-            format!("{}; {} for small-strain", both(cfl), cfl(Formulation::SmallStrain))
+            format!("{} and tl-ganzenmueller; {} for small-strain", both(cfl), cfl(Formulation::SmallStrain))
         );
+        assert_eq!(cfl(Formulation::TlGanzenmueller), cfl(updated));
         assert_eq!(said(&case::NORMALISATION), word(NORMALISATION));
         assert_eq!(said(&case::FORMULATION), word(FORMULATION));
         assert_eq!(said(&case::PLANE), format!("{}, in 2D", word(PLANE)));
