@@ -92,7 +92,11 @@ const WRONG: &[Wrong] = &[
         "[time]\n",
         "[quasi_static]\nincrements = 0\ntolerance = 2\n[damping]\nviscosity = \"1 Pa\"\n\n[time]\n",
     ),
-    (RINGS, "[time]\n", "[quasi_static]\n\n[time]\n"),
+    (
+        RINGS,
+        "[time]\n",
+        "[quasi_static]\n\n[[contact]]\nbodies = [\"left\", \"right\"]\nfriction = 0.2\n\n[time]\n",
+    ),
     (PLATE, "dimension = 2", "dimension = 2\nformulation = \"tl-ganzenmueller\"\nalpha = -1"),
     (RINGS, "material = \"rubber\"", "material = \"ruber\""),
     (PLATE, "[\"strip\", \"block\"]", "[\"strip\", \"blok\"]"),

@@ -48,23 +48,14 @@ pub(crate) fn read(
     all
 }
 
-/// Refuses increments of load where bodies may touch: their balance of forces does not know contact.
-pub(crate) fn refuse_statics(
-    root: &Table,
-    (contacts, bodies, tools): (&[Contact], usize, usize),
-    problems: &mut Problems,
-) {
+/// Refuses increments of load where bodies rub or push each other by pairs: neither is a matter of equilibrium alone.
+pub(crate) fn refuse_statics(root: &Table, contacts: &[Contact], problems: &mut Problems) {
     let Some(node) = root.get("quasi_static") else { return };
-    let said = |one, other| contacts.iter().find(|contact| contact.bodies == [one, other]);
-    let pairs = (0..bodies + tools).flat_map(|other| (0..=other).map(move |one| (one, other)));
-    let touch = |&(one, other): &(usize, usize)| match said(one, other) {
-        Some(contact) => contact.friction.is_some() || contact.penalty.is_some(),
-        None => one != other && one < bodies,
-    };
-    if pairs.into_iter().any(|pair| touch(&pair)) {
+    let rubs = |contact: &Contact| contact.friction.is_some_and(|mu| mu > 0.0) || contact.penalty.is_some();
+    if contacts.iter().any(rubs) {
         problems.0.push(
-            Diagnostic::at(node.place, "increments that are held until forces balance do not know contact, and bodies or tools of this case may touch")
-                .help("move the tools slowly, with [damping] if it rings; or let what does not meet pass through each other with [[contact]] ignore = true"),
+            Diagnostic::at(node.place, "increments that are held until forces balance know contact without friction only, and bodies or tools of this case rub, or push each other by pairs")
+                .help("leave friction and penalty out of [[contact]]; or move the tools slowly, with [damping] if it rings"),
         );
     }
 }

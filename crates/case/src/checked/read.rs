@@ -59,7 +59,7 @@ fn checked(root: &Table, as_run: String, sources: &Arc<Sources>, problems: &mut 
     let named = top.get(keys::PLANE.name).map_or(Place::START, |node| node.place);
     compatible::planes(&parts.bodies, (plane, named), problems);
     let (damping, quasi_static) = statics::read(root, &scope, (&parts.bodies, problems));
-    contact::refuse_statics(root, (&parts.contacts, parts.bodies.len(), parts.tools.len()), problems);
+    contact::refuse_statics(root, &parts.contacts, problems);
     let (time, monitor) = times?;
     Some(Case {
         name,

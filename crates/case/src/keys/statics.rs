@@ -62,7 +62,7 @@ pub(crate) mod quasi_static {
     );
     pub(crate) const TABLE: Table = Table {
         header: "[quasi_static]",
-        doc: "Looks for equilibria instead of motion. The time `t` of loads and boundaries is then that of the load alone: it goes on as slowly as waves and grips need, and stops at the end of each increment until the unbalanced forces are small. By kinetic damping with scaled masses, which has no parameter, or by `[damping]` if that is there. Frames and probes are written for equilibria. For total Lagrangian bodies.",
+        doc: "Looks for equilibria instead of motion. The time `t` of loads and boundaries is then that of the load alone: it goes on as slowly as waves and grips need, and stops at the end of each increment until the unbalanced forces are small. By kinetic damping with scaled masses (as they are where something may touch), which has no parameter, or by `[damping]` if that is there. Frames and probes are written for equilibria. For total Lagrangian bodies; tools and contact without friction too.",
         keys: &[INCREMENTS, TOLERANCE, MAX_STEPS],
         example: "[quasi_static]\nincrements = 20",
     };

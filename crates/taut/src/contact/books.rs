@@ -76,6 +76,30 @@ impl Contact {
         })
     }
 
+    /// What contact adds to the sum of (m a)^2 / V over the free components of particles, N^2/m^3: with it, forces balance where bodies press
+    /// on each other.
+    #[must_use]
+    pub fn felt(&self, solvers: &[Box<dyn Solver>]) -> f64 {
+        let mut first = 0;
+        let mut sum = 0.0;
+        for &(a, end) in &self.facings.owners {
+            let facings = std::mem::replace(&mut first, end as usize)..end as usize;
+            let a = a as usize;
+            let solver = &solvers[self.surfaces.members[self.surfaces.body[a] as usize].solver];
+            if solver.is_rigid() {
+                continue;
+            }
+            let place = solver.stored(self.surfaces.ids[a] as usize);
+            let force = facings.fold(Vector::zero(), |sum, i| sum + self.force_on(i));
+            let (free, own) =
+                (solver.read(Quantity::Free, place), solver.read(Quantity::Acceleration, place));
+            let mass = solver.scalar(Quantity::Mass, place);
+            let square = |k: usize| free[k] * force[k] * (2.0 * mass * own[k] + force[k]);
+            sum += (0..solver.dimension()).map(square).sum::<f64>() / solver.scalar(Quantity::Volume, place);
+        }
+        sum
+    }
+
     /// Notes the work and impulses of penalties in a step of `dt`.
     pub(super) fn note_penalties(&mut self, solvers: &[Box<dyn Solver>], dt: f64) {
         self.ledger.work += self.penalties.passed(solvers, dt, &mut self.ledger.impulse);

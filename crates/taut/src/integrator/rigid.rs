@@ -49,8 +49,10 @@ pub struct Rigid {
     ahead: Pose,
     /// At the end of the step.
     next: Pose,
-    /// Begin and length of the step, s.
+    /// Begin of the step, on the clock of the motion, and its length, s.
     step: Now<f64>,
+    /// What passes of the motion in the step, s: as long as it, but where the motion has a clock of its own.
+    passed: f64,
 }
 
 impl Rigid {
@@ -76,15 +78,16 @@ impl Rigid {
             ahead: start,
             next: start,
             step: Now { t: 0.0, dt: 0.0 },
+            passed: 0.0,
         }
     }
 
     /// Takes the poses of a step: all that the body is depends on it.
-    fn plan(&mut self, t: f64, dt: f64) {
-        self.now = self.motion.pose(t);
-        self.ahead = self.motion.pose(t + 0.5 * dt);
-        self.next = self.motion.pose(t + dt);
-        self.step = Now { t, dt };
+    fn plan(&mut self, step: Now<f64>, passed: f64) {
+        self.now = self.motion.pose(step.t);
+        self.ahead = self.motion.pose(step.t + 0.5 * passed);
+        self.next = self.motion.pose(step.t + passed);
+        (self.step, self.passed) = (step, passed);
     }
 
     fn velocity(&self, place: usize) -> Vector<f64, 3> {
@@ -123,7 +126,7 @@ impl Solver for Rigid {
     }
 
     fn begin(&mut self, dt: f64) {
-        self.plan(0.0, dt);
+        self.plan(Now { t: 0.0, dt }, dt);
     }
 
     fn stable_step(&self) -> f64 {
@@ -135,8 +138,13 @@ impl Solver for Rigid {
     }
 
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged> {
-        self.plan(now.t + now.dt, next);
+        self.plan(Now { t: now.t + now.dt, dt: next }, next);
         Ok(())
+    }
+
+    fn follow(&mut self, now: Now<f64>, passed: f64) -> f64 {
+        self.plan(now, passed);
+        (0..self.x.len()).map(|place| self.velocity(place).norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
     fn bounding(&self) -> Bounding {
@@ -158,12 +166,12 @@ impl Solver for Rigid {
     }
 
     fn save(&self) -> Vec<Part<'_>> {
-        vec![Part::numbers("step", &[self.step.t, self.step.dt])]
+        vec![Part::numbers("step", &[self.step.t, self.step.dt, self.passed])]
     }
 
     fn restore(&mut self, shelf: &mut Shelf<'_>) -> Result<(), RestoreError> {
-        let [t, dt] = shelf.numbers("step")?;
-        self.plan(t, dt);
+        let [t, dt, passed] = shelf.numbers("step")?;
+        self.plan(Now { t, dt }, passed);
         Ok(())
     }
 

@@ -86,6 +86,11 @@ pub trait Solver: Send + Sync {
     /// If the state has left its bounds.
     fn finish(&mut self, now: Now<f64>, next: f64) -> Result<(), Diverged>;
 
+    /// Moves by what passes (s) in the step `now` on a clock of its own, instead of by the step: of what moves as it is told. The largest speed that makes, m/s.
+    fn follow(&mut self, _: Now<f64>, _: f64) -> f64 {
+        0.0
+    }
+
     /// Everything that has to be kept so that the solver can go on bit by bit, between two steps: columns, and what is integrated
     /// beside them. What [`Solver::restore`] makes again identically is left out.
     fn save(&self) -> Vec<Part<'_>>;

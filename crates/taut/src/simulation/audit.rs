@@ -14,6 +14,8 @@ pub struct Grip {
     impulse: Impulse,
     /// What contact gave to the components that it holds.
     pressed: Impulse,
+    /// The part of it of the present step.
+    pressing: Impulse,
     /// What it exerted in the last step of a quasi-static run, N and N m.
     force: Option<Impulse>,
 }
@@ -218,7 +220,8 @@ impl Audit {
         for grip in &mut self.grips {
             for (k, (owner, part)) in grip.parts.iter_mut().enumerate() {
                 if *owner == index {
-                    let mut force = if k == 0 { Impulse::default() } else { grip.force.unwrap_or_default() };
+                    let first = || grip.pressing.times(-1.0 / dt);
+                    let mut force = if k == 0 { first() } else { grip.force.unwrap_or_default() };
                     force += solver.holding(part, dt).times(1.0 / dt);
                     grip.force = Some(force);
                 }
@@ -228,10 +231,14 @@ impl Audit {
 
     /// Takes down what contact does in a step of `dt` to what constraints hold: it moves nothing, but the constraints feel it.
     pub fn pressed(&mut self, contact: &Contact, dt: f64) {
+        for grip in &mut self.grips {
+            grip.pressing = Impulse::default();
+        }
         for (particle, x, force) in contact.on_held() {
             for (grip, axes) in self.holders.get(&particle).into_iter().flatten() {
                 let taken = std::array::from_fn(|k| if axes[k] { dt * force[k] } else { 0.0 });
                 self.grips[*grip].pressed.push(x, taken);
+                self.grips[*grip].pressing.push(x, taken);
             }
         }
     }

@@ -179,16 +179,24 @@ impl Simulation {
         let moment = |pace: f64| if pace > 0.0 { pace * dt } else { 1e-9 * self.time.max(dt) };
         let now = Now { t: self.time, dt: moment(pace) };
         self.drive(now);
-        let mut bodies = self.solvers.iter_mut().filter_map(|solver| solver.relax());
-        let driven = bodies.by_ref().map(|body| body.unrest().driven).fold(0.0, f64::max);
-        if pace * driven > load.fastest {
-            pace = load.fastest / driven;
+        let bodies = self.solvers.iter_mut().filter_map(|solver| solver.relax());
+        let driven = bodies.map(|body| body.unrest().driven).fold(0.0, f64::max);
+        let fastest = self.follow(dt, pace * dt).max(pace * driven);
+        if fastest > load.fastest {
+            pace *= load.fastest / fastest;
             self.drive(Now { t: self.time, dt: pace * dt });
+            self.follow(dt, pace * dt);
         }
         if driven > 0.0 {
             self.solvers.iter_mut().filter_map(|solver| solver.relax()).for_each(|body| body.pace(pace));
         }
         pace * dt
+    }
+
+    /// Moves rigid bodies by what passes on the clock of the load in a step of `dt`; their largest speed, m/s.
+    fn follow(&mut self, dt: f64, passed: f64) -> f64 {
+        let now = Now { t: self.time, dt };
+        self.solvers.iter_mut().map(|solver| solver.follow(now, passed)).fold(0.0, f64::max)
     }
 
     fn halves(
@@ -233,6 +241,9 @@ impl Simulation {
             load.filter(|load| passed >= load.left).map_or(self.time + passed, |load| self.time + load.left);
         self.steps += 1;
         self.dt = next;
+        if load.is_some() {
+            self.follow(next, 0.0);
+        }
         self.remember((at_bound, next));
         // Masses that are scaled, as when loads have a clock of their own, keep another energy.
         if load.is_some() {

@@ -60,7 +60,7 @@ pub struct QuasiStatic {
 
 impl QuasiStatic {
     /// Before the first increment of a simulation that has begun. With `own` damping the simulation's is left alone and velocities are
-    /// stopped at maxima of the kinetic energy; without, the simulation's damping has to do it.
+    /// stopped at maxima of the kinetic energy, and masses scaled where nothing may touch; without, the simulation's damping has to do it.
     pub fn new(simulation: &mut Simulation, increments: Increments, own: bool) -> Self {
         let mut new = Self {
             increments,
@@ -71,10 +71,12 @@ impl QuasiStatic {
             held: 0,
             began: 0,
         };
+        let touching = simulation.contact.is_some();
         for body in simulation.solvers.iter_mut().filter_map(|solver| solver.relax()) {
             new.length = new.length.max(body.extent());
             new.wave_speed = new.wave_speed.min(body.wave_speed());
-            if own {
+            // Contact kicks masses as they are.
+            if own && !touching {
                 body.even_out();
             }
         }
@@ -158,6 +160,9 @@ impl QuasiStatic {
             sum.stress += one.stress;
             sum.kinetic += one.kinetic;
             sum.elastic += one.elastic;
+        }
+        if let Some(contact) = &simulation.contact {
+            sum.force += contact.felt(&simulation.solvers);
         }
         let share = |part: f64, whole: f64| if part > 0.0 { (part / whole).sqrt() } else { 0.0 };
         Balance { force: self.length * share(sum.force, sum.stress), motion: share(sum.kinetic, sum.elastic) }

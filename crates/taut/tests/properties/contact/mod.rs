@@ -1,5 +1,6 @@
 //! Contact of bodies of every formulation, and of rigid ones.
 
+mod balance;
 mod held;
 mod scene;
 mod unmoved;
