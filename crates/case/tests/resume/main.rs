@@ -140,6 +140,13 @@ fn quasi_static_runs_go_on_bit_by_bit() {
     same_bits(&PULLED.replace("increments = 8", "increments = 300"), Numbers::Single);
     let damped = "[damping]\nprobability = 0.2\nviscosity = \"100 Pa*s\"\n[[body]]";
     same_bits(&PULLED.replace("[[body]]", damped).replace("tl-nested", "tl-ganzenmueller"), Numbers::Double);
+    let tool = r#"
+[[tool]]
+name = "punch"
+shape = { box = { min = ["2 mm", "8 mm"], max = ["8 mm", "11 mm"] } }
+displacement = [0, "-0.001*t"]
+"#;
+    same_bits(&format!("{PULLED}{tool}"), Numbers::Double);
 }
 
 /// Forms that are there for comparison differ from the others in what they remember, not in how it is kept: one body each, double precision.
