@@ -34,7 +34,7 @@ pub enum Command {
     },
     /// Make the particles of a case or of a shape, and save them with a picture and how good they are
     Particles(ParticleOptions),
-    /// Write the surface of a stent as STL, FILE.stl; nothing is overwritten
+    /// Write the surface of bodies as STL, FILE.stl; nothing is overwritten
     Surface(SurfaceOptions),
     /// Tell what is in a file of triangles (STL, OBJ), and whether it is a body: in the file's own unit of length
     Mesh {

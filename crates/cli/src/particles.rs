@@ -99,25 +99,32 @@ fn tell(case: &Case, stock: &Stock) {
     say!("{name}: {} particles, spacing {:.4e} m{how}", points.len(), case.spacing);
     let other = fitted.as_ref().map(|(lattice, ..)| lattice);
     if other.is_some() {
-        say!("  {:45} {:>12} {:>12}", "", "fitted", "lattice");
+        say!("  {:48} {:>12} {:>12}", "", "fitted", "lattice");
     }
-    let row = |what: &str, of: fn(&Quality) -> f64| {
-        let beside = other.map(|lattice| format!(" {:>12.5}", of(lattice))).unwrap_or_default();
-        say!("  {what:45} {:>12.5}{beside}", of(quality));
+    let row = |what: &str, of: &dyn Fn(&Quality) -> String| {
+        let beside = other.map(|lattice| format!(" {:>12}", of(lattice))).unwrap_or_default();
+        say!("  {what:48} {:>12}{beside}", of(quality));
     };
-    row("sum of V grad W inside, rms, times dp", |q| q.interior);
-    row("  the largest", |q| q.interior_max);
-    row("  everywhere, rms", |q| q.residual);
-    row("off half a spacing from the surface, rms / dp", |q| q.surface);
-    row("  the largest", |q| q.surface_max);
-    row("smallest distance of two particles / dp", |q| q.spacing_min);
-    row("volume over that of the body, less 1", |q| q.volume_error);
+    row("sum of V grad W inside, rms, times dp", &|q| short(q.interior));
+    row("  the largest", &|q| short(q.interior_max));
+    row("  everywhere, rms", &|q| short(q.residual));
+    // The force on a particle is the sum of (Q_a + Q_b) V grad W.
+    row("patch test: force inside over stress / dp, rms", &|q| q.deep.map_or("-".to_string(), |deep| short(2.0 * deep)));
+    row("off half a spacing from the surface, rms / dp", &|q| short(q.surface));
+    row("  the largest", &|q| short(q.surface_max));
+    row("smallest distance of two particles / dp", &|q| short(q.spacing_min));
+    row("volume over that of the body, less 1", &|q| short(q.volume_error));
     if quality.thin > 0 {
         say!(
             "  {} particles have less than 0.45 spacings to the surface: walls are thinner than a particle there, or the filling has steps",
             quality.thin
         );
     }
+}
+
+/// Five digits behind the point, of what is not rounding.
+fn short(value: f64) -> String {
+    if value.abs() < 5e-6 { format!("{value:.0e}") } else { format!("{value:.5}") }
 }
 
 fn frame(case: &Case, stocks: &[Stock]) -> Frame {

@@ -21,11 +21,14 @@ pub fn surface(options: &SurfaceOptions) -> Result<(), Failure> {
     let spacing = options.what.trim().starts_with('{').then(|| "1".to_string());
     let (what, set) = (options.what.clone(), options.set.clone());
     let case = case_of(&ParticleOptions { what, out: file.clone(), spacing, set })?;
+    if case.dimension == 2 {
+        return Err(Failure::Input("a shape of the plane has no surface of triangles".to_string()));
+    }
     let mut triangles = Vec::new();
     for (name, surface) in surfaces(&case) {
         let Some(surface) = surface else {
             let message =
-                format!("the surface of `{name}` cannot be written: only stents have triangles so far");
+                format!("the surface of `{name}` cannot be written: boxes, balls, hollow balls, cylinders, stents and meshes have triangles, polygons and combined shapes have none");
             return Err(Failure::Input(message));
         };
         triangles.extend(surface);

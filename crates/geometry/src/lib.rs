@@ -28,6 +28,7 @@ mod problem;
 mod shape;
 mod stent;
 mod stl;
+mod triangles;
 mod validate;
 
 pub use bounds::Bounds;

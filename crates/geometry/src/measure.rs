@@ -1,4 +1,4 @@
-//! The volumes of shapes whose volume has a formula.
+//! The volumes of shapes whose volume has a formula, or is that of their triangles.
 
 use crate::point::{Dimension, norm, sub};
 use crate::polygon;
@@ -24,7 +24,8 @@ pub(crate) fn volume(shape: &Shape, dimension: Dimension) -> Option<f64> {
         Shape::Scale { factor, shape, .. } => {
             volume(shape, dimension).map(|v| v * factor.powi(dimension.axes() as i32))
         }
-        Shape::Mesh(mesh) => Some(mesh.volume()),
+        // What overlaps would count twice.
+        Shape::Mesh(mesh) => (!mesh.meets_itself()).then(|| mesh.volume()),
         Shape::Stent(_) | Shape::Union(_) | Shape::Intersection(_) | Shape::Difference(..) => None,
     }
 }

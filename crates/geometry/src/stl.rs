@@ -2,6 +2,7 @@
 
 use crate::point::{Point, Turn, add, stretch, sub, unit};
 use crate::shape::Shape;
+use crate::triangles;
 
 /// Triangles as a binary STL file: 80 bytes of a title, their number, and for each its normal and corners in single precision, in metres.
 ///
@@ -22,8 +23,8 @@ pub fn stl(triangles: &[[Point; 3]]) -> Vec<u8> {
 }
 
 impl Shape {
-    /// The surface as triangles whose corners run counterclockwise seen from outside, closed: of stents, moved as they may be. `None` for
-    /// others, which have none yet.
+    /// The surface as triangles whose corners run counterclockwise seen from outside, closed. `None` for polygons and combinations, which have
+    /// none.
     pub fn surface(&self) -> Option<Vec<[Point; 3]>> {
         let moved = |shape: &Self, to: &dyn Fn(Point) -> Point| {
             let mut surface = shape.surface()?;
@@ -31,13 +32,21 @@ impl Shape {
             Some(surface)
         };
         match self {
+            Self::Box { min, max } => Some(triangles::cuboid(*min, *max)),
+            Self::Ball { center, radius } => Some(triangles::ball(*center, *radius)),
+            Self::Ring { center, inner, outer } => Some(triangles::hollow(*center, *inner, *outer)),
+            Self::Cylinder { from, to, radius } => Some(triangles::cylinder([*from, *to], *radius)),
             Self::Stent(stent) => Some(stent.surface()),
+            Self::Mesh(mesh) => {
+                let corners = |face: &[u32; 3]| face.map(|corner| mesh.points()[corner as usize]);
+                Some(mesh.faces().iter().map(corners).collect())
+            }
             Self::Translate { by, shape } => moved(shape, &|x| add(x, *by)),
             Self::Rotate { angle, axis, about, shape } => {
                 moved(shape, &|x| Turn { angle: *angle, axis: *axis, about: *about }.apply(x))
             }
             Self::Scale { factor, about, shape } => moved(shape, &|x| stretch(x, *about, *factor)),
-            _ => None,
+            Self::Polygon { .. } | Self::Union(_) | Self::Intersection(_) | Self::Difference(..) => None,
         }
     }
 }

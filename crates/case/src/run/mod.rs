@@ -102,7 +102,7 @@ const PARTICLES_PER_THREAD: usize = 400;
 /// A case that cannot be built, a result directory that is taken, a write that fails, a run that diverges or is asked to stop; the last
 /// two leave frames, probes and summary, and a run that was stopped a checkpoint.
 pub fn run(case: &Case, settings: &Settings, observer: &mut dyn Observer) -> Result<Summary, RunError> {
-    let built = build(case, settings.numbers)?;
+    let built = built(case, (settings.threads, settings.numbers))?;
     let pool = pool_for(settings.threads, &built)?;
     let results = ResultDir::create(&settings.out)?;
     observer.started(case, built.particles(), pool.current_num_threads());
@@ -126,7 +126,7 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Summary, RunError> {
     let Interrupted { case, numbers, notices, results, manifest, found } = run;
-    let built = build(&case, numbers)?;
+    let built = built(&case, (threads, numbers))?;
     let pool = pool_for(threads, &built)?;
     observer.started(&case, built.particles(), pool.current_num_threads());
     for notice in &notices {
@@ -139,6 +139,11 @@ pub fn resume(
         let setup = again((&case, manifest), &results, found, built)?;
         in_pool((&case, &results), setup, (&pool, checkpoints), observer)
     })
+}
+
+/// Builds a case on so many threads, or on all cores: how many particles there will be is not known yet.
+fn built(case: &Case, (threads, numbers): (Option<usize>, Numbers)) -> Result<Built, RunError> {
+    Ok(pool(threads.unwrap_or_else(cores).max(1))?.install(|| build(case, numbers))?)
 }
 
 /// So many threads, or as many as the particles can use.

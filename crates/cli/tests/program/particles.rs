@@ -16,6 +16,7 @@ fn particles_are_saved_drawn_and_used_again() {
     let told = taut(folder.path(), &["particles", "case.toml", "-o", "made"]).with(0).stdout;
     // 200 mm^2 less 4 pi.
     assert!(told.contains("block: 187 particles") && told.contains("at rest after"), "{told}");
+    assert!(told.contains("patch test: force inside over stress / dp, rms"), "{told}");
     assert!(folder.path().join("made.vtp").is_file() && folder.path().join("made.png").is_file());
     let again = taut(folder.path(), &["particles", "case.toml", "-o", "made.vtp"]).with(2).stderr;
     assert!(again.contains("made.vtp exists already"), "{again}");
@@ -67,7 +68,13 @@ fn the_surface_of_a_stent_is_written_once_as_stl() {
         taut(folder.path(), &["surface", stent, "-o", "stent"]).with(2).stderr.contains("exists already")
     );
     let ball = "{ ball = { center = [0, 0, 0], radius = 1 } }";
-    assert!(taut(folder.path(), &["surface", ball, "-o", "b"]).with(2).stderr.contains("only stents"));
+    // 48 strips of 96 pairs, less the halves at the poles.
+    assert!(taut(folder.path(), &["surface", ball, "-o", "b"]).with(0).stdout.contains("9024 triangles in b.stl"));
+    let both = format!("{{ union = [{ball}, {ball}] }}");
+    let none = taut(folder.path(), &["surface", &both, "-o", "u"]).with(2).stderr;
+    assert!(none.contains("polygons and combined shapes have none"), "{none}");
+    let disc = taut(folder.path(), &["surface", "{ ball = { center = [0, 0], radius = 1 } }", "-o", "d"]).with(2).stderr;
+    assert!(disc.contains("a shape of the plane has no surface"), "{disc}");
     let crowded = stent.replace("0.3", "1.9");
     let said = taut(folder.path(), &["surface", &crowded, "-o", "c"]).with(2).stderr;
     assert!(said.contains("`strut` is 1.9") && said.contains("room for less than"), "{said}");

@@ -6,6 +6,7 @@ mod edges;
 mod holes;
 mod meets;
 mod orient;
+mod parts;
 mod problem;
 mod read;
 mod report;
@@ -49,6 +50,7 @@ struct Inner {
     mended: Mended,
     crossings: Crossings,
     thinnest: OnceLock<Option<Thin>>,
+    parts: OnceLock<Vec<Mesh>>,
 }
 
 /// How it is found out on which side of the surface a point is.
@@ -104,6 +106,7 @@ impl Mesh {
             mended,
             crossings,
             thinnest: OnceLock::new(),
+            parts: OnceLock::new(),
         })))
     }
 
@@ -151,6 +154,22 @@ impl Mesh {
     /// asked for.
     pub fn thinnest(&self) -> Option<Thin> {
         *self.0.thinnest.get_or_init(|| thin::thinnest(&self.0.tree))
+    }
+
+    /// Whether its surface meets itself, so that some of it may lie inside.
+    pub(crate) fn meets_itself(&self) -> bool {
+        self.0.crossings.at.is_some() || self.0.crossings.tangled
+    }
+
+    /// Whether it meets itself only where closed pieces overlap: then it is what these unite, and is asked piece by piece where walls are.
+    pub(crate) fn is_united(&self) -> bool {
+        let Inner { pieces, mended, .. } = &*self.0;
+        self.meets_itself() && *pieces > 1 && mended.crowded + mended.open == 0
+    }
+
+    /// The meshes that it unites: its pieces, if they overlap; else itself.
+    pub(crate) fn parts(&self) -> &[Self] {
+        self.0.parts.get_or_init(|| parts::parts(self))
     }
 
     /// What there is to say about it.

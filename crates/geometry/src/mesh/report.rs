@@ -24,6 +24,8 @@ pub struct MeshReport {
     pub mended: Mended,
     /// Where the surface meets itself.
     pub crossings: Crossings,
+    /// Whether it meets itself where closed pieces overlap.
+    pub united: bool,
     /// Whether inside is told by the winding number, since normals cannot tell it everywhere.
     pub winding: bool,
 }
@@ -41,6 +43,7 @@ impl MeshReport {
             thinnest: mesh.thinnest(),
             mended: inner.mended.clone(),
             crossings: inner.crossings.clone(),
+            united: mesh.is_united(),
             winding: matches!(inner.side, Side::Winding(_)),
         }
     }
@@ -136,7 +139,12 @@ impl MeshReport {
         }
         if self.crossings.at.is_some() || self.crossings.tangled {
             let told = self.crossings_in_words(unit);
-            doubts.push(format!("it meets itself: {told}; join such parts in the program that drew them, or give each a file and unite them"));
+            let rest = if self.united {
+                format!("its {} are united, and walls inside of others are none", count(self.pieces, "piece", "pieces"))
+            } else {
+                "join such parts in the program that drew them, or give each a file and unite them".to_string()
+            };
+            doubts.push(format!("it meets itself: {told}; {rest}"));
         }
         let mut say = |number: usize, one: &str, many: &str, rest: &str| {
             if number > 0 {

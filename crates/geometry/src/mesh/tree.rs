@@ -193,7 +193,7 @@ fn meet(corners: &[Point; 3], x: Point, way: Point) -> Option<f64> {
 
 impl Bounds {
     /// Square of the distance from the box; 0 inside.
-    fn squared(&self, x: Point) -> f64 {
+    pub(crate) fn squared(&self, x: Point) -> f64 {
         let mut squared = 0.0;
         for i in 0..3 {
             let out = (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0);

@@ -87,6 +87,9 @@ impl Penalties {
 
     /// Finds the boundaries.
     pub fn begin(&mut self, solvers: &[Box<dyn Solver>]) {
+        if self.all.is_empty() {
+            return;
+        }
         let bodies = self.all.iter().flat_map(|p| p.bodies).max().map_or(0, |last| last as usize + 1);
         self.rims = vec![Rim::default(); bodies];
         for (s, solver) in solvers.iter().enumerate() {

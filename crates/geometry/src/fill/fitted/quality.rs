@@ -16,6 +16,9 @@ pub struct Quality {
     pub interior: f64,
     /// The largest of these.
     pub interior_max: f64,
+    /// The root mean square of sum V grad W, times the spacing, of the particles that nothing of the surface reaches; `None` without such.
+    /// A constant stress pulls them with twice that times stress over spacing.
+    pub deep: Option<f64>,
     /// The root mean square over all particles.
     pub residual: f64,
     /// The volume of all particles over that of the body, less 1.
@@ -63,6 +66,7 @@ impl Quality {
         Self {
             interior: mean(all.interior, all.inner) * dp,
             interior_max: all.interior_max.sqrt() * dp,
+            deep: (all.deepest > 0).then(|| mean(all.deep, all.deepest) * dp),
             residual: mean(all.residual, points.len()) * dp,
             volume_error: points.total_volume() / volume - 1.0,
             count_error: points.len() as f64 * basin.grid.lump() / volume - 1.0,
@@ -79,6 +83,8 @@ impl Quality {
 #[derive(Clone, Copy)]
 struct Tally {
     inner: usize,
+    deepest: usize,
+    deep: f64,
     interior: f64,
     interior_max: f64,
     residual: f64,
@@ -92,6 +98,8 @@ impl Default for Tally {
     fn default() -> Self {
         Self {
             inner: 0,
+            deepest: 0,
+            deep: 0.0,
             interior: 0.0,
             interior_max: 0.0,
             residual: 0.0,
@@ -108,13 +116,15 @@ impl Tally {
         let x: &[Point] = &points.x;
         let square = basin.residual(points, i, near);
         let distance = basin.walls.at(x[i]).distance;
-        let inside = distance < -basin.spacing;
+        let (inside, deep) = (distance < -basin.spacing, basin.walls.room(x[i]) > basin.kernel.reach());
         let off = (distance + 0.5 * basin.spacing).abs();
         let least = near.iter().map(|&j| norm(sub(x[i], x[j as usize]))).fold(f64::INFINITY, f64::min);
         let inner = if inside { square } else { 0.0 };
         let surface = if inside { 0.0 } else { off };
         Self {
             inner: usize::from(inside),
+            deepest: usize::from(deep),
+            deep: if deep { square } else { 0.0 },
             interior: inner,
             interior_max: inner,
             residual: square,
@@ -128,6 +138,8 @@ impl Tally {
     fn plus(self, other: Self) -> Self {
         Self {
             inner: self.inner + other.inner,
+            deepest: self.deepest + other.deepest,
+            deep: self.deep + other.deep,
             interior: self.interior + other.interior,
             interior_max: self.interior_max.max(other.interior_max),
             residual: self.residual + other.residual,

@@ -1,5 +1,6 @@
 //! Where the surface of a body is, seen from near it.
 
+use crate::bounds::Bounds;
 use crate::point::{Dimension, Point, add, dot, norm, scale, sub};
 use crate::shape::Shape;
 
@@ -26,8 +27,8 @@ pub(super) struct Wall {
 /// (see [`Shape::distance`]); so its parts are asked one by one, and each is believed only where the whole really ends.
 pub(super) struct Walls<'a> {
     whole: &'a Shape,
-    /// The parts, if the distance of the whole cannot be trusted inside.
-    faces: Vec<Shape>,
+    /// The parts with their bounds, if the distance of the whole cannot be trusted inside.
+    faces: Vec<(Shape, Bounds)>,
     spacing: f64,
     axes: usize,
 }
@@ -38,6 +39,11 @@ const NONE: Wall = Wall { distance: f64::NEG_INFINITY, normal: [0.0; 3] };
 impl<'a> Walls<'a> {
     pub(super) fn new(whole: &'a Shape, spacing: f64, dimension: Dimension) -> Self {
         let faces = if exact_inside(whole) { Vec::new() } else { faces(whole) };
+        let bounded = |face: Shape| {
+            let bounds = face.bounds();
+            (face, bounds)
+        };
+        let faces = faces.into_iter().map(bounded).collect();
         Self { whole, faces, spacing, axes: dimension.axes() }
     }
 
@@ -56,8 +62,11 @@ impl<'a> Walls<'a> {
         if self.is_exact() {
             return Wall { distance: self.whole.distance(x), normal: self.slope(self.whole, x) };
         }
-        let seen = self.faces.iter().filter_map(|face| self.face(face, x));
-        seen.fold(NONE, |best, wall| if wall.distance.abs() < best.distance.abs() { wall } else { best })
+        self.faces.iter().fold(NONE, |best, (face, bounds)| {
+            let nearer = |wall: &Wall| wall.distance.abs() < best.distance.abs();
+            let reached = bounds.squared(x).sqrt() <= best.distance.abs() + self.spacing;
+            if reached { self.face(face, x).filter(nearer).unwrap_or(best) } else { best }
+        })
     }
 
     /// The nearest wall, and those that meet it in a ridge close to `x`, as planes at their distances from there. In a groove
@@ -135,6 +144,7 @@ fn exact_inside(shape: &Shape) -> bool {
         Shape::Translate { shape, .. } | Shape::Rotate { shape, .. } | Shape::Scale { shape, .. } => {
             exact_inside(shape)
         }
+        Shape::Mesh(mesh) => !mesh.meets_itself(),
         _ => true,
     }
 }
@@ -148,6 +158,7 @@ fn exact_outside(shape: &Shape) -> bool {
         Shape::Translate { shape, .. } | Shape::Rotate { shape, .. } | Shape::Scale { shape, .. } => {
             exact_outside(shape)
         }
+        Shape::Mesh(mesh) => !mesh.meets_itself(),
         _ => true,
     }
 }
@@ -167,6 +178,7 @@ fn faces(shape: &Shape) -> Vec<Shape> {
         Shape::Scale { factor, about, shape } => {
             around(shape, &|shape| Shape::Scale { factor: *factor, about: *about, shape })
         }
+        Shape::Mesh(mesh) => mesh.parts().iter().cloned().map(Shape::Mesh).collect(),
         _ => vec![shape.clone()],
     }
 }

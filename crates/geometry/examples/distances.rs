@@ -1,7 +1,7 @@
-//! How long signed distances to a mesh take: `cargo run --release -p taut-geometry --example mesh_distance [TRIANGLES [FILE]]`.
-//! Without a file a ball with waves of about so many triangles (100 000), whole and with a tenth of them missing.
+//! How long signed distances take: `cargo run --release -p taut-geometry --example distances [TRIANGLES [FILE]]`.
+//! Without a file: a ball with waves of about so many triangles (100 000), whole and with a tenth of them missing, a stent, and a combination.
 
-use geometry::{Mesh, Point};
+use geometry::{Mesh, Point, Shape, Stent};
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -25,26 +25,22 @@ fn waves(triangles: usize) -> (Vec<Point>, Vec<[u32; 3]>) {
     (points, faces)
 }
 
-/// Distances of a lattice of points in the box of the mesh, on so many threads; seconds.
-fn time(mesh: &Mesh, threads: usize) -> f64 {
-    let (bounds, n) = (mesh.bounds(), (POINTS as f64).cbrt().round() as usize);
+/// Distances of a lattice of points in the box of a shape, on so many threads.
+fn time(shape: &Shape, threads: usize) {
+    let (bounds, n) = (shape.bounds(), (POINTS as f64).cbrt().round() as usize);
     let x = |k: usize| -> Point {
         let place = [k % n, k / n % n, k / n / n];
         std::array::from_fn(|i| bounds.min[i] + bounds.extent()[i] * (place[i] as f64 + 0.5) / n as f64)
     };
     let clock = Instant::now();
     let part =
-        |thread: usize| (thread..POINTS).step_by(threads).filter(|&k| mesh.distance(x(k)) < 0.0).count();
+        |thread: usize| (thread..POINTS).step_by(threads).filter(|&k| shape.distance(x(k)) < 0.0).count();
     let inside: usize = std::thread::scope(|scope| {
         let work: Vec<_> = (0..threads).map(|thread| scope.spawn(move || part(thread))).collect();
         work.into_iter().map(|thread| thread.join().unwrap_or(0)).sum()
     });
-    let (seconds, volume) = (clock.elapsed().as_secs_f64(), bounds.extent().iter().product::<f64>());
-    let share = inside as f64 / POINTS as f64 * volume / mesh.volume();
-    println!(
-        "  {threads} threads: {POINTS} points in {seconds:.2} s; volume by points over that by triangles {share:.4}"
-    );
-    seconds
+    let (seconds, share) = (clock.elapsed().as_secs_f64(), inside as f64 / POINTS as f64);
+    println!("  {threads} threads: {POINTS} points in {seconds:.2} s; {share:.4} of them inside");
 }
 
 fn show(what: &str, make: impl FnOnce() -> Result<Mesh, geometry::MeshError>) {
@@ -56,9 +52,19 @@ fn show(what: &str, make: impl FnOnce() -> Result<Mesh, geometry::MeshError>) {
     println!("{what}: {} triangles, ready after {:.2} s", mesh.faces().len(), clock.elapsed().as_secs_f64());
     let report = mesh.report();
     println!("  inside by {}", if report.winding { "winding number" } else { "normals" });
-    for threads in [1, 2] {
-        time(&mesh, threads);
-    }
+    [1, 2].into_iter().for_each(|threads| time(&Shape::Mesh(mesh.clone()), threads));
+}
+
+/// Shapes that are drawn.
+fn drawn() -> [(&'static str, Shape); 2] {
+    let (length, diameter, thickness) = (0.02, 0.01, 1e-4);
+    let stent = Stent { length, diameter, thickness, around: 8, along: 4, strut: 3e-4, bridge: 6e-4 };
+    let cylinder = Shape::Cylinder { from: [0.5, 0.5, -1.0], to: [0.5, 0.5, 2.0], radius: 0.2 };
+    let cut = Shape::Rotate { angle: 0.4, axis: [1.0, 2.0, 3.0], about: [0.5; 3], shape: Box::new(cylinder) };
+    let (brick, ball) =
+        (Shape::Box { min: [0.0; 3], max: [1.0; 3] }, Shape::Ball { center: [1.0; 3], radius: 0.4 });
+    let both = Shape::Union(vec![brick, ball]);
+    [("a stent", Shape::Stent(stent)), ("a box and a ball, less a cylinder", Shape::Difference(Box::new(both), vec![cut]))]
 }
 
 fn main() {
@@ -81,4 +87,8 @@ fn main() {
     let second = faces.iter().map(|face| face.map(|corner| corner + count));
     let crossing = faces.iter().copied().chain(second).collect();
     show("two of them, which cross", || Mesh::new(both, crossing));
+    for (what, shape) in drawn() {
+        println!("{what}");
+        [1, 2].into_iter().for_each(|threads| time(&shape, threads));
+    }
 }
