@@ -1,6 +1,7 @@
 //! Contact of bodies of every formulation, and of rigid ones.
 
 mod held;
+mod penalty;
 mod scene;
 mod unmoved;
 
