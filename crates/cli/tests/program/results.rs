@@ -235,5 +235,6 @@ fn the_largest_stress_of_a_run_is_followed() {
     let measured = |name: &str| json(&out.join("summary.json"))["measured"][name]["value"].as_f64();
     assert_eq!(values.last().copied(), measured("last"), "the same particles, the same formula");
     assert_eq!(values.iter().copied().reduce(f64::max), measured("most"));
-    assert!(values[0] == 0.0 && measured("most") > Some(0.0), "{values:?}");
+    // At rest there is what 17 MPa round to.
+    assert!(values[0] < 1e-7 && measured("most") > Some(1e5), "{values:?}");
 }
