@@ -3,7 +3,7 @@
 mod samples;
 
 use case::{Case, Overrides};
-use samples::{COLUMN, PLATE, RINGS, parse, parse_set};
+use samples::{COLUMN, PLATE, PUNCH, RINGS, parse, parse_set};
 
 /// A case, what is replaced in it (the first time it occurs) by what, and words of the message and its hint.
 /// The line is that of the mark `@` in the replacement (which is taken out), or of its beginning.
@@ -223,6 +223,18 @@ const ROWS: &[Row] = &[
     (COLUMN, "index = 1", "index = 0", &["a whole number from 1 on, found the number 0"]),
     (COLUMN, "prominence = 0.3", "prominence = \"1 m/s\"", &["expected a length (m), found a speed (m/s)"]),
     (COLUMN, "\"value-at\"", "\"value-on\"", &["unknown kind `value-on`", "did you mean `value-at`?"]),
+    (
+        PUNCH,
+        "contact-force\"\nbody = \"upper\"\nby = \"strip\"",
+        "gap\"\nbody = \"strip\"\n@by = \"strip\"",
+        &["between two bodies"],
+    ),
+    (
+        PUNCH,
+        "contact-moment\"\nbody = \"roller\"\n\n[[measure]]\nname = \"most\"\nkind = \"maximum\"\nprobe = \"moment\"\n",
+        "gap\"\nbody = \"roller\"\n\n[[measure]]\nname = \"most\"\nkind = \"maximum\"\nprobe = \"moment\"\n@",
+        &["a probe of gap records one number", "remove this line"],
+    ),
     (COLUMN, "time = 1", "time = 2026-01-01", &["`time` has to be a number, found the date 2026-01-01"]),
 ];
 

@@ -24,6 +24,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("ul-plate-2d", include_str!("../../../cases/ul-plate-2d.toml")),
     ("ul-plate-3d", include_str!("../../../cases/ul-plate-3d.toml")),
     ("lk-rectangle", include_str!("../../../cases/lk-rectangle.toml")),
+    ("lk-formulations", include_str!("../../../cases/lk-formulations.toml")),
     ("lk-annulus", include_str!("../../../cases/lk-annulus.toml")),
     ("lk-stability", include_str!("../../../cases/lk-stability.toml")),
     ("lk-collision", include_str!("../../../cases/lk-collision.toml")),

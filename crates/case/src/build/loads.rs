@@ -141,14 +141,17 @@ fn mass<const D: usize>(case: &Case, point: &Point<D>) -> f64 {
     case.material_of(body).map_or(f64::NAN, |m| m.density) * point.volume
 }
 
-/// The shares of a face. The stress of the nested forms, whose force and gradient are adjoint, is in balance with loads on the face itself, half
+/// The shares of a face. The stress of the forms whose force is adjoint to their corrected gradient (B in both) is in balance with loads on the face itself, half
 /// a spacing outside of the particle: on the point extrapolated from the two outermost particles, 3/2 and -1/2. That of the others is in balance
 /// with loads on the outermost particle.
 fn on_face<const D: usize>(case: &Case, groups: &[Group<'_, D>], face: &Face) -> Vec<Share> {
     let area = case.spacing.powi(D as i32 - 1);
     let at = |member: Member| &groups[member.0].points[member.1];
     let formulation = case.bodies[at(face.member).body as usize].scheme.formulation;
-    let adjoint = matches!(formulation, Formulation::TlNested | Formulation::TlGanzenmueller);
+    let adjoint = matches!(
+        formulation,
+        Formulation::TlNested | Formulation::TlGanzenmueller | Formulation::UlGeneralised
+    );
     let parts = match face.behind.filter(|_| adjoint) {
         Some(behind) => vec![(face.member, 1.5), (behind, -0.5)],
         None => vec![(face.member, 1.0)],

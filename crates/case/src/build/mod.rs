@@ -1,6 +1,7 @@
 //! From a checked case to a simulation: one match over formulations and materials, one over dimensions.
 
 mod afford;
+mod apart;
 mod bodies;
 mod doubts;
 mod drives;

@@ -1,5 +1,6 @@
 //! Probes and disorder.
 
+use super::apart::Apart;
 use super::bodies::{Group, checked, padded, vector};
 use super::gap::Gap;
 use crate::{Case, CaseError, Fill, Quantity, Spot};
@@ -19,6 +20,8 @@ pub enum ProbePoint {
     Moment(usize),
     /// What contact does to a body.
     Contact(Touched),
+    /// How near a body is to others.
+    Gap(Apart),
 }
 
 /// What contact does to a body.
@@ -61,8 +64,18 @@ impl Followed {
                 let u = mean(field::Quantity::Displacement);
                 std::array::from_fn(|i| self.at[i] + u[i])
             }
+            Quantity::VonMises => [self.stress(solver.as_ref()), 0.0, 0.0],
             _ => mean(field::Quantity::Displacement),
         }
+    }
+
+    /// The largest von Mises stress of the particles, Pa.
+    fn stress(&self, solver: &dyn Solver) -> f64 {
+        let mut most = 0.0;
+        for &(id, _) in &self.point.weights {
+            solver.show(id..id + 1, &mut |seen| most = seen.state.cauchy.von_mises().max(most));
+        }
+        most
     }
 }
 
@@ -77,6 +90,9 @@ pub fn probes<const D: usize>(case: &Case, groups: &[Group<'_, D>]) -> Result<Ve
         }
         if let Spot::Contact { by } = probe.spot {
             let (body, by) = (probe.body as u32, by.map(|by| by as u32));
+            if probe.quantity == Quantity::Gap {
+                return Ok(ProbePoint::Gap(Apart { body, by }));
+            }
             let moment = probe.quantity == Quantity::ContactMoment;
             return Ok(ProbePoint::Contact(Touched { body, by, moment }));
         }

@@ -260,12 +260,27 @@ impl MeasureReader<'_> {
                 // Where a probe is wrong the others have moved up: then every axis may be right.
                 let whole = self.checked.len() == self.probes.len();
                 let quantity = self.checked.get(probe).filter(|_| whole).map(|p| p.quantity);
-                let axes = &Axis::WORDS[quantity.map_or(0..3, |q| q.axes(self.scope.dimension))];
-                let axis = choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)?;
+                let axis = self.component(quantity, section)?;
                 let feature = self.feature(kind, probe, section)?;
                 Ok(MeasureKind::Probe { probe, axis, feature, over: self.over(probe, section)? })
             }
         }
+    }
+
+    /// Which number of a probe is read: of several one has to be chosen, of one there is no choice.
+    fn component(&self, quantity: Option<Quantity>, section: &Section<'_>) -> Result<Axis, Diagnostic> {
+        if let Some(scalar) = quantity.filter(|quantity| quantity.is_scalar()) {
+            return match section.get(keys::COMPONENT.name) {
+                None => Ok(Axis::X),
+                Some(node) => {
+                    let message =
+                        format!("a probe of {} records one number: it has no components", word(scalar));
+                    Err(Diagnostic::at(node.place, message).help("remove this line"))
+                }
+            };
+        }
+        let axes = &Axis::WORDS[quantity.map_or(0..3, |q| q.axes(self.scope.dimension))];
+        choice(section.need(keys::COMPONENT.name)?, keys::COMPONENT.name, axes)
     }
 
     fn body(&self, section: &Section<'_>) -> Result<usize, Diagnostic> {

@@ -41,9 +41,9 @@ pub enum Spot {
     Region(ShapeSpec),
     /// A boundary, by its number.
     Boundary(usize),
-    /// What contact does to the body.
+    /// What other bodies do to the body, or how near they are.
     Contact {
-        /// Number of the body that does it; `None` for all.
+        /// Number of the other body; `None` for all.
         by: Option<usize>,
     },
 }
@@ -65,6 +65,10 @@ pub enum Quantity {
     ContactForce,
     /// Moment of the contact forces about the origin, N m.
     ContactMoment,
+    /// Largest von Mises stress of the particles, Pa.
+    VonMises,
+    /// Smallest distance to the particles of another body, m.
+    Gap,
 }
 
 impl Words for Quantity {
@@ -84,34 +88,63 @@ impl Words for Quantity {
             "the force of contact on a body or tool, N (in 2D per metre of depth)",
         ),
         ("contact-moment", Self::ContactMoment, "its moment about the origin, N m; in 2D z only"),
+        (
+            "von-mises",
+            Self::VonMises,
+            "the largest von Mises stress of the particles that are followed, Pa; one number",
+        ),
+        (
+            "gap",
+            Self::Gap,
+            "the smallest distance from a particle of a body or tool to one of another, m; one number",
+        ),
     ];
 }
 
 impl Quantity {
-    /// What its numbers are: lengths, speeds, forces or moments.
+    /// What its numbers are: lengths, speeds, forces, moments or stresses.
     pub fn dimension(self) -> Dimension {
         match self {
-            Self::Displacement | Self::Position => Dimension::LENGTH,
+            Self::Displacement | Self::Position | Self::Gap => Dimension::LENGTH,
             Self::Velocity => Dimension::SPEED,
             Self::Reaction | Self::ContactForce => Dimension::FORCE,
             Self::Moment | Self::ContactMoment => Dimension::MOMENT,
+            Self::VonMises => Dimension::PRESSURE,
         }
     }
 
     /// Unit of its numbers.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Displacement | Self::Position => "m",
+            Self::Displacement | Self::Position | Self::Gap => "m",
             Self::Velocity => "m/s",
             Self::Reaction | Self::ContactForce => "N",
             Self::Moment | Self::ContactMoment => "N m",
+            Self::VonMises => "Pa",
         }
     }
 
-    /// The axes that it has components along.
+    /// The axes that it has components along; the first if it is one number.
     pub fn axes(self, dimension: usize) -> Range<usize> {
-        let turns = matches!(self, Self::Moment | Self::ContactMoment);
-        if turns && dimension == 2 { 2..3 } else { 0..dimension }
+        match self {
+            Self::Moment | Self::ContactMoment if dimension == 2 => 2..3,
+            Self::VonMises | Self::Gap => 0..1,
+            _ => 0..dimension,
+        }
+    }
+
+    /// What its components are called.
+    pub fn components(self, dimension: usize) -> &'static [&'static str] {
+        match self {
+            Self::VonMises => &["von-mises"],
+            Self::Gap => &["gap"],
+            _ => &["x", "y", "z"][self.axes(dimension)],
+        }
+    }
+
+    /// Whether it is one number, without components.
+    pub fn is_scalar(self) -> bool {
+        matches!(self, Self::VonMises | Self::Gap)
     }
 
     /// Whether it is recorded of a boundary.
@@ -119,9 +152,9 @@ impl Quantity {
         matches!(self, Self::Reaction | Self::Moment)
     }
 
-    /// Whether it is what contact does to a body.
+    /// Whether it is between a body and others.
     pub fn is_of_contact(self) -> bool {
-        matches!(self, Self::ContactForce | Self::ContactMoment)
+        matches!(self, Self::ContactForce | Self::ContactMoment | Self::Gap)
     }
 }
 
@@ -151,6 +184,9 @@ impl ProbeReader<'_, '_> {
             _ => problems.keep(body(section, self.bodies)),
         };
         let quantity = problems.keep(quantity(section, spot.as_ref().map(|(spot, _)| spot)));
+        if let (Some((Spot::Contact { by }, _)), Some(body), Some(Quantity::Gap)) = (&spot, body, quantity) {
+            problems.keep(self.two(section, body, *by));
+        }
         let interval = problems.keep(self.shapes.scope.get(section, &keys::INTERVAL));
         let reference = problems.keep(reference(section));
         let (spot, place) = spot?;
@@ -165,16 +201,27 @@ impl ProbeReader<'_, '_> {
         })
     }
 
-    /// Whose force a probe of contact records.
+    /// The other body of a probe of contact or of a gap.
     fn by(&self, section: &Section<'_>) -> Result<(Spot, Place), Diagnostic> {
         let others = [keys::AT.name, keys::REGION.name, keys::OF.name];
         if let Some(node) = others.iter().find_map(|key| section.get(key)) {
-            let message = "a probe of contact is of a whole body: it has no `at`, `region` or `of`";
+            let message =
+                "a probe of contact, or of a gap, is of a whole body: it has no `at`, `region` or `of`";
             return Err(Diagnostic::at(node.place, message));
         }
         let by =
             section.get(keys::BY.name).map(|node| find(node, "body or tool", self.touching)).transpose()?;
         Ok((Spot::Contact { by }, section.place))
+    }
+
+    /// A gap is between two.
+    fn two(&self, section: &Section<'_>, body: usize, by: Option<usize>) -> Result<(), Diagnostic> {
+        if by == Some(body) || self.touching.len() < 2 {
+            let message = "a gap is that between two bodies, or a body and a tool";
+            let place = section.get(keys::BY.name).map_or(section.place, |node| node.place);
+            return Err(Diagnostic::at(place, message).help("name one as `body` and the other as `by`"));
+        }
+        Ok(())
     }
 
     fn spot(&mut self, section: &Section<'_>) -> Result<(Spot, Place), Diagnostic> {
@@ -183,7 +230,7 @@ impl ProbeReader<'_, '_> {
             .filter_map(|key| Some((key, section.get(key)?)))
             .collect();
         if let Some(node) = section.get(keys::BY.name) {
-            let message = "`by` belongs to the quantities contact-force and contact-moment";
+            let message = "`by` belongs to the quantities contact-force, contact-moment and gap";
             return Err(Diagnostic::at(node.place, message));
         }
         match given.as_slice() {

@@ -6,8 +6,11 @@ use crate::{Case, Compared, Comparison, Feature, MeasureKind, Statistic};
 pub(super) fn measure(case: &Case, kind: &MeasureKind) -> String {
     match kind {
         MeasureKind::Probe { probe, axis, feature, over } => {
-            let axis = ["x", "y", "z"][axis.index()];
-            let what = featured(feature, &format!("{axis} of probe {}", case.probes[*probe].name));
+            let probe = &case.probes[*probe];
+            // Of moments in the plane there is only the last.
+            let first = probe.quantity.axes(case.dimension).start;
+            let name = probe.quantity.components(case.dimension)[axis.index() - first];
+            let what = featured(feature, &format!("{name} of probe {}", probe.name));
             over.map_or(what.clone(), |over| format!("{what}, over {}", short(over)))
         }
         MeasureKind::Turns { probe, axis, feature } => {

@@ -298,12 +298,23 @@ fn probe(case: &Case, probe: &Probe) -> String {
         Quantity::ContactMoment => "moment of the contact forces about the origin",
         Quantity::Reaction => "force",
         Quantity::Moment => "moment about the origin",
+        Quantity::VonMises => "largest von Mises stress",
+        Quantity::Gap => "smallest distance",
     };
     let spot = match &probe.spot {
         Spot::Point(at) => {
             format!("the point {:?} m of {}", &at[..case.dimension], case.bodies[probe.body].name)
         }
-        Spot::Region(region) => format!("the mean over {}", on(case, Some(probe.body), Some(region))),
+        Spot::Region(region) => {
+            let over = if probe.quantity.is_scalar() { "" } else { "the mean over " };
+            format!("{over}{}", on(case, Some(probe.body), Some(region)))
+        }
+        Spot::Contact { by: None } if probe.quantity == Quantity::Gap => {
+            format!("{} to the others", case.name_of(probe.body))
+        }
+        Spot::Contact { by: Some(by) } if probe.quantity == Quantity::Gap => {
+            format!("{} to {}", case.name_of(probe.body), case.name_of(*by))
+        }
         Spot::Contact { by: None } => format!("{}, by all that touch it", case.name_of(probe.body)),
         Spot::Contact { by: Some(by) } => {
             format!("{}, by {}", case.name_of(probe.body), case.name_of(*by))

@@ -144,7 +144,7 @@ pub(crate) mod probe {
         "at",
         Kind::Vector(Dimension::LENGTH),
         Need::Optional,
-        "The material point to follow, by its reference position; either this or `region` or `of` (none for what contact does).",
+        "The material point to follow, by its reference position; either this or `region` or `of` (none for what contact does, and for gaps).",
     );
     pub(crate) const REGION: Key = Key::new(
         "region",
@@ -162,13 +162,13 @@ pub(crate) mod probe {
         "body",
         Kind::NameOf("body"),
         Need::Default("the only one"),
-        "The body that is meant; for what contact does, a body or tool.",
+        "The body that is meant; for what contact does, and for gaps, a body or tool.",
     );
     pub(crate) const BY: Key = Key::new(
         "by",
         Kind::NameOf("body or tool"),
         Need::Default("all"),
-        "Whose force it is; for `contact-force` and `contact-moment`.",
+        "Whose force it is, or to whom the gap; for `contact-force`, `contact-moment` and `gap`.",
     );
     pub(crate) const QUANTITY: Key = Key::new(
         "quantity",
@@ -215,7 +215,7 @@ pub(crate) mod measure {
         "component",
         Kind::Choice(Axis::choices),
         Need::Optional,
-        "The component of the probe; for kinds that read a curve.",
+        "The component of the probe, unless it records one number; for kinds that read a curve.",
     );
     pub(crate) const EXTREMUM: Key = Key::new(
         "extremum",

@@ -73,7 +73,7 @@ fn property(key: &Key) -> Value {
 /// The unit of a number and what is allowed, for people.
 pub(super) fn unit(kind: &Kind) -> Option<String> {
     let (dimension, range) = match *kind {
-        Kind::OfProbe => return Some("m, m/s, N or N m, as the probe records, > 0".to_string()),
+        Kind::OfProbe => return Some("m, m/s, N, N m or Pa, as the probe records, > 0".to_string()),
         Kind::Number(dimension, range) => (dimension, range),
         other => (other.dimension()?, Range::Any),
     };

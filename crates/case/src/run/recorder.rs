@@ -127,6 +127,7 @@ impl<'a> Recorder<'a> {
                     ProbePoint::Force(boundary) => meter.mean(simulation, *boundary).map(|r| r.linear),
                     ProbePoint::Moment(boundary) => meter.mean(simulation, *boundary).map(|r| r.angular),
                     ProbePoint::Contact(touched) => Some(touched.value(simulation)),
+                    ProbePoint::Gap(apart) => Some([apart.value(simulation.solvers()), 0.0, 0.0]),
                 };
                 let sample = value.map(|value| Sample { probe: i, time, value });
                 self.outbox.sheet.samples.extend(sample);

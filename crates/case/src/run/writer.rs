@@ -61,8 +61,8 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, RunError> {
         let mut tables = Vec::new();
         for probe in &case.probes {
-            let axes = &["x", "y", "z"][probe.quantity.axes(case.dimension)];
-            let columns: Vec<(&str, &str)> = axes.iter().map(|axis| (*axis, probe.quantity.unit())).collect();
+            let names = probe.quantity.components(case.dimension).iter();
+            let columns: Vec<(&str, &str)> = names.map(|name| (*name, probe.quantity.unit())).collect();
             tables.push(ProbeTable::create(results, &probe.name, &columns)?);
         }
         references(case, results)?;

@@ -250,3 +250,6 @@ fn rigid_motions(x: &[[f64; 3]], (free, root): (&[usize], &[f64]), d: usize) -> 
     };
     Mat::from_fn(free.len(), count, |k, j| root[k] * motion(free[k], j)).qr().compute_thin_Q()
 }
+
+#[cfg(test)]
+mod tests;

@@ -34,6 +34,7 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-pull-2d", include_str!("../../../../validation/tl-pull-2d/accept.toml")),
     ("tl-pull-3d", include_str!("../../../../validation/tl-pull-3d/accept.toml")),
     ("lk-rectangle", include_str!("../../../../validation/lk-rectangle/accept.toml")),
+    ("lk-formulations", include_str!("../../../../validation/lk-formulations/accept.toml")),
     ("lk-annulus", include_str!("../../../../validation/lk-annulus/accept.toml")),
     ("lk-stability", include_str!("../../../../validation/lk-stability/accept.toml")),
     ("lk-collision", include_str!("../../../../validation/lk-collision/accept.toml")),

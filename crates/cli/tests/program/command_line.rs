@@ -20,6 +20,7 @@ const BENCHMARKS: &[&str] = &[
     "ul-ball-plate-2d",
     "ul-ball-plate-3d",
     "lk-rectangle",
+    "lk-formulations",
     "lk-annulus",
     "lk-stability",
     "lk-collision",

@@ -218,3 +218,23 @@ fn frames(results: &Path) -> Vec<std::path::PathBuf> {
     files.sort();
     files
 }
+
+/// A probe of one number has one column; at the end it says what is measured of the field.
+#[test]
+fn the_largest_stress_of_a_run_is_followed() {
+    let more = "\n[[probe]]\nname = \"stress\"\nregion = { box = { min = [0, 0], max = [1, 1] } }\nquantity = \"von-mises\"\n\n\
+        [[measure]]\nname = \"most\"\nkind = \"maximum\"\nprobe = \"stress\"\n\n[[measure]]\nname = \"last\"\nkind = \"largest\"\nfield = \"von-mises\"\n";
+    let folder = with_case(&format!("{BLOCK}{more}"));
+    taut(folder.path(), &["run", "case.toml", "--quiet"]).with(0);
+    let out = folder.path().join("out/block");
+    let table = fs::read_to_string(out.join("probes/stress.csv")).expect("the table");
+    assert!(table.starts_with("time [s],von-mises [Pa]\n"), "{table}");
+    let column =
+        |line: &str| line.split(',').nth(1).and_then(|cell| cell.parse::<f64>().ok()).expect("a number");
+    let values: Vec<f64> = table.lines().skip(1).map(column).collect();
+    let measured = |name: &str| json(&out.join("summary.json"))["measured"][name]["value"].as_f64();
+    assert_eq!(values.last().copied(), measured("last"), "the same particles, the same formula");
+    assert_eq!(values.iter().copied().reduce(f64::max), measured("most"));
+    // At rest there is what 17 MPa round to.
+    assert!(values[0] < 1e-7 && measured("most") > Some(1e5), "{values:?}");
+}

@@ -2,6 +2,7 @@
 
 mod balance;
 mod held;
+mod penalty;
 mod scene;
 mod unmoved;
 
