@@ -163,7 +163,8 @@ fn non_hourglass_in<const D: usize>(n: [usize; D]) -> [f64; 3] {
 fn updated_lagrangian() {
     let strain = 2e6 / (1.0 - 0.4 * 0.4);
     let bending = |[c11, _, c12]: [f64; 3]| (c11 - c12 * c12 / c11) / strain;
-    let (generalised, non_hourglass) = (bending(generalised_in([13, 12])), bending(non_hourglass_in([13, 12])));
+    let (generalised, non_hourglass) =
+        (bending(generalised_in([13, 12])), bending(non_hourglass_in([13, 12])));
     assert!((generalised - 1.0).abs() < TOLERANCE, "{generalised}");
     assert!((non_hourglass - 1.03).abs() < 0.005, "{non_hourglass}");
     generalised_in([11, 10, 9]);
