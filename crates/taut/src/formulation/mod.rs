@@ -3,6 +3,7 @@
 mod kick;
 pub mod small_strain;
 pub mod total;
+mod undeformed;
 pub mod updated;
 
 use crate::field::Quantity;

@@ -4,6 +4,7 @@ use super::Operator;
 use crate::build::{build, interior};
 use crate::{Case, Overrides};
 use faer::Mat;
+use taut::field::Quantity;
 use taut::simulation::{Numbers, Solver};
 
 const PLATE: &str = include_str!("../../../../../cases/lk-rectangle.toml");
@@ -68,5 +69,23 @@ fn the_spectrum_is_real_and_not_positive() {
             assert!(l.im.abs() < 1e-10 * l.re.abs().max(1e-4 * largest), "{name}: {l:?} of {largest:e}");
             assert!(l.re <= 1e-12 * largest, "{name}: {l:?} of {largest:e}");
         }
+    }
+}
+
+/// Tangential loads on the outermost and the innermost ring: the moment of either is 2 pi q, and so the sum vanishes to the last digits, however few particles there are.
+#[test]
+fn the_loads_of_the_annulus_have_no_moment() {
+    for around in ["36", "94"] {
+        let (solver, _) = body(ANNULUS, &[&format!("parameters.around={around}")]);
+        let moment = |place: usize| {
+            let (x, b) =
+                (solver.read(Quantity::ReferencePosition, place), solver.read(Quantity::BodyForce, place));
+            solver.scalar(Quantity::Mass, place) * (x[0] * b[1] - x[1] * b[0])
+        };
+        let all: Vec<f64> = (0..solver.len()).map(moment).collect();
+        let (sum, one): (f64, f64) = (all.iter().sum(), all.iter().map(|m| 0.5 * m.abs()).sum());
+        // Of the case: 1.7227e-9 N.
+        assert!((one / (std::f64::consts::TAU * 1.7227e-9) - 1.0).abs() < 1e-12, "{around}: {one:e}");
+        assert!(sum.abs() < 1e-13 * one, "{around}: {sum:e} of {one:e}");
     }
 }

@@ -6,6 +6,7 @@ mod passes;
 
 pub use normalisation::{Adjoint, Bare, Literal, Normalisation};
 
+use super::undeformed::{Momentum, Rate};
 use super::{Formulation, State};
 use crate::field::Quantity;
 use crate::kernel::Kernel;
@@ -13,7 +14,7 @@ use crate::material::LinearElastic;
 use crate::math::Tensor;
 use crate::pass::Now;
 use crate::run::Run;
-use passes::{Kick, Momentum, Rate, Readying, Strain, Weighing};
+use passes::{Kick, Readying, Strain, Weighing};
 use std::marker::PhantomData;
 
 /// rho0 a = sum_b (sigma_a/s_a + sigma_b/s_b) . grad W V_b with eps = sym(sum_b (u_b - u_a) (x) grad W V_b) / s_a, where `N` says

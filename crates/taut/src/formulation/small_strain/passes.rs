@@ -3,6 +3,7 @@
 use super::{Normalisation, SmallStrain};
 use crate::field::Of;
 use crate::formulation::kick::Mover;
+use crate::formulation::undeformed::{Force, Gradient};
 use crate::kernel::Kernel;
 use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
@@ -15,18 +16,10 @@ record! {
     Weighed { s: Shepard }
     /// The same, and its wave speed.
     Ready { s: Shepard, c2: WaveSpeedSquared }
-    /// What the rate of the displacement gradient is made of.
-    Flow { v: Velocity }
-    /// The sum of a gradient.
-    Gradient { l: VelocityGradient }
     /// A particle about to be deformed.
     Formed { u: Displacement, v: Velocity, h: DisplacementGradient, s: Shepard }
     /// A particle deformed.
     Deformed { u: Displacement, h: DisplacementGradient, rate: DeformationRate, q: NominalStress }
-    /// What a pair force needs.
-    Stressed { q: NominalStress }
-    /// Force per volume.
-    Force { f: ForceDensity }
     /// A particle about to be accelerated.
     Inert { v: Velocity, m: Mass, b: BodyForce, free: Free, given: PrescribedVelocity, work: ExternalWork, s: Shepard }
     /// A particle accelerated.
@@ -74,26 +67,6 @@ impl<const D: usize> Update<D> for Readying {
     }
 }
 
-/// sum_b (v_b - v_a) (x) grad W V_b: SS Eq. (9) for the rate, without the factor 1/2 and the transpose.
-pub struct Rate;
-
-impl<const D: usize> PairSum<D> for Rate {
-    type Reads = Flow<f64, D>;
-    type Adds = Gradient<f64, D>;
-    const DIRECTED: bool = false;
-
-    #[inline(always)]
-    fn add<S: Real, const M: u8>(
-        &self,
-        sum: &mut Gradient<S, D>,
-        (a, b): (&Flow<S, D>, &Flow<S, D>),
-        ab: &Pair<S, D, M>,
-        _: &Now<S>,
-    ) {
-        ab.outer(&mut sum.l, b.v - a.v);
-    }
-}
-
 /// u += dt v (SS Eq. 11); the gradient of u, which is linear in v, likewise; then the stress (SS Eq. 3). The end of one step and
 /// the beginning of the next, fused.
 pub struct Strain<'a, N>(pub &'a SmallStrain<N>);
@@ -109,26 +82,6 @@ impl<N: Normalisation, const D: usize> Update<D> for Strain<'_, N> {
         let h = a.h.plus(now.dt, rate);
         let q = self.0.material.stress(h).times(N::stress(a.s));
         Deformed { u: a.u.plus(now.dt, a.v), h, rate, q }
-    }
-}
-
-/// sum_b (sigma_a/s_a + sigma_b/s_b) . grad W V_b (SS Eq. 7 with the density at rest).
-pub struct Momentum;
-
-impl<const D: usize> PairSum<D> for Momentum {
-    type Reads = Stressed<f64, D>;
-    type Adds = Force<f64, D>;
-    const DIRECTED: bool = false;
-
-    #[inline(always)]
-    fn add<S: Real, const M: u8>(
-        &self,
-        sum: &mut Force<S, D>,
-        (a, b): (&Stressed<S, D>, &Stressed<S, D>),
-        ab: &Pair<S, D, M>,
-        _: &Now<S>,
-    ) {
-        ab.dot(&mut sum.f, a.q + b.q);
     }
 }
 

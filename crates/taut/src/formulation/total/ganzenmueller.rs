@@ -1,11 +1,12 @@
 //! The nested formulation with an hourglass control, `tl-ganzenmueller` (TL ref. 51; its TL-SPH-GM).
 
-use super::motion::{Kick, Rate, Stress, Stretch};
+use super::motion::{Kick, Stress, Stretch};
 use super::reference::MomentSum;
 use super::{CONTROLLED, Solid};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::kick::Mover;
+use crate::formulation::undeformed::Rate;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::material::Hyperelastic;

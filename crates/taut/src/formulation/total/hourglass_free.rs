@@ -1,11 +1,12 @@
 //! The hourglass-free formulation, `tl-hourglass-free` (TL section 3.3).
 
 use super::calibration::lattice_moment;
-use super::motion::{Force, Kick, Rate, Stress, Stretch};
+use super::motion::{Kick, Stress, Stretch};
 use super::reference::MomentSum;
 use super::{FIELDS, Solid};
 use crate::correction::Invert;
 use crate::field::Quantity;
+use crate::formulation::undeformed::{Force, Rate};
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
 use crate::material::PairShear;

@@ -3,21 +3,16 @@
 use super::Solid;
 use crate::field::Of;
 use crate::formulation::kick::Mover;
+use crate::formulation::undeformed::{Force, Gradient};
 use crate::material::Hyperelastic;
 use crate::math::{Real, Tensor};
-use crate::pass::{Now, Pair, PairSum, Update};
+use crate::pass::{Now, Update};
 
 record! {
-    /// Force per reference volume.
-    Force { f: ForceDensity }
     /// A particle about to be accelerated.
     Inert { v: Velocity, m: Mass, b: BodyForce, free: Free, given: PrescribedVelocity, work: ExternalWork }
     /// A particle accelerated.
     Moved { v: Velocity, a: Acceleration, work: ExternalWork }
-    /// What the rate of deformation is made of.
-    Flow { v: Velocity }
-    /// The uncorrected gradient of velocity.
-    Gradient { l: VelocityGradient }
     /// A particle about to be deformed.
     Formed {
         u: Displacement, v: Velocity, f: DeformationGradient, correction: Correction, volume: Volume,
@@ -46,26 +41,6 @@ impl<const D: usize> Update<D> for Kick {
         let mover = Mover { v: a.v, m: a.m, b: a.b, free: a.free, given: a.given };
         let kicked = mover.kick(sum.f.times(S::of(self.per_density)), now);
         Moved { v: kicked.v, a: kicked.a, work: a.work + kicked.external_work }
-    }
-}
-
-/// sum_b (v_b - v_a) (x) grad W V_b (TL Eq. 22 without B).
-pub struct Rate;
-
-impl<const D: usize> PairSum<D> for Rate {
-    type Reads = Flow<f64, D>;
-    type Adds = Gradient<f64, D>;
-    const DIRECTED: bool = false;
-
-    #[inline(always)]
-    fn add<S: Real, const M: u8>(
-        &self,
-        sum: &mut Gradient<S, D>,
-        (a, b): (&Flow<S, D>, &Flow<S, D>),
-        ab: &Pair<S, D, M>,
-        _: &Now<S>,
-    ) {
-        ab.outer(&mut sum.l, b.v - a.v);
     }
 }
 

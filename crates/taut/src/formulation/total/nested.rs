@@ -1,14 +1,15 @@
 //! The nested formulation, `tl-nested` (TL section 3.2): stress from a gradient, force from the gradient of stress.
 
-use super::motion::{Force, Kick, Rate, Stress, Stretch};
+use super::motion::{Kick, Stress, Stretch};
 use super::reference::MomentSum;
 use super::{FIELDS, Solid};
 use crate::correction::Invert;
 use crate::field::Quantity;
+use crate::formulation::undeformed::{Momentum, Rate};
 use crate::formulation::{Formulation, State};
 use crate::material::Hyperelastic;
 use crate::math::{Real, Tensor};
-use crate::pass::{Now, Pair, PairSum};
+use crate::pass::Now;
 use crate::run::Run;
 
 /// rho0 a = sum_b (P_a B_a + P_b B_b) grad W V_b with P = tau F^-T (TL Eq. 20; B is symmetric). Blind to zig-zag modes.
@@ -23,31 +24,6 @@ impl<M: Hyperelastic> Nested<M> {
     #[must_use]
     pub fn new(material: M, h: f64) -> Self {
         Self { solid: Solid::new(material, h) }
-    }
-}
-
-record! {
-    /// What a pair force needs.
-    Stressed { q: NominalStress }
-}
-
-/// The force sum.
-struct Momentum;
-
-impl<const D: usize> PairSum<D> for Momentum {
-    type Reads = Stressed<f64, D>;
-    type Adds = Force<f64, D>;
-    const DIRECTED: bool = false;
-
-    #[inline(always)]
-    fn add<S: Real, const M: u8>(
-        &self,
-        sum: &mut Force<S, D>,
-        (a, b): (&Stressed<S, D>, &Stressed<S, D>),
-        ab: &Pair<S, D, M>,
-        _: &Now<S>,
-    ) {
-        ab.dot(&mut sum.f, a.q + b.q);
     }
 }
 
