@@ -92,7 +92,8 @@ fn patch(dimension: usize, shape: &str, spacing: f64, fill: &str) -> Patch {
     let mut simulation = begun(&case(dimension, (shape, spacing, fill), &velocity), 0);
     let body = &simulation.solvers()[0];
     let words = || (0..dimension * dimension).map(|k| (k, H[k / dimension][k % dimension]));
-    let off = |i: usize| words().map(move |(k, h)| (body.word(Quantity::DeformationRate, k, i) - h).abs() / 1e-3);
+    let off =
+        |i: usize| words().map(move |(k, h)| (body.word(Quantity::DeformationRate, k, i) - h).abs() / 1e-3);
     let rate = (0..body.len()).flat_map(off).fold(0.0, f64::max);
     simulation.step().expect("finite");
     let body = &simulation.solvers()[0];
@@ -103,7 +104,11 @@ fn patch(dimension: usize, shape: &str, spacing: f64, fill: &str) -> Patch {
         (0..x.len()).fold(Vector::zero(), |sum, j| {
             let way = x[i].plus(-1.0, x[j]);
             let r = way.norm_squared().sqrt();
-            if r == 0.0 || r >= kernel.support() { sum } else { sum.plus(body.rest_volume(j) * kernel.dw(r) / r, way) }
+            if r == 0.0 || r >= kernel.support() {
+                sum
+            } else {
+                sum.plus(body.rest_volume(j) * kernel.dw(r) / r, way)
+            }
         })
     };
     // Surfaces of particles are half a spacing outside of the outermost.
@@ -142,7 +147,11 @@ fn gradients_are_exact_and_a_patch_is_out_of_balance_by_the_residual_and_no_more
         let share = deep.iter().filter(|deep| **deep).count() as f64 / deep.len() as f64;
         let bound = m.double_dot(m).sqrt() * REST / share.sqrt() / spacing;
         let (told, balanced) = (inside / all, rms(&lattice.a, |i| lattice.deep[i]));
-        println!("{dimension}D: inside {told:.2e} of all, at most {:.2e}; off {:.1e}", bound / all, off / all);
+        println!(
+            "{dimension}D: inside {told:.2e} of all, at most {:.2e}; off {:.1e}",
+            bound / all,
+            off / all
+        );
         assert!(inside < bound, "{told:e} of all, {:e}", bound / all);
         // On a lattice pairs cancel.
         assert!(balanced < 1e-10 * rms(&lattice.a, |_| true), "{balanced:e}");

@@ -109,7 +109,9 @@ fn tell(case: &Case, stock: &Stock) {
     row("  the largest", &|q| short(q.interior_max));
     row("  everywhere, rms", &|q| short(q.residual));
     // The force on a particle is the sum of (Q_a + Q_b) V grad W.
-    row("patch test: force inside over stress / dp, rms", &|q| q.deep.map_or("-".to_string(), |deep| short(2.0 * deep)));
+    row("patch test: force inside over stress / dp, rms", &|q| {
+        q.deep.map_or("-".to_string(), |deep| short(2.0 * deep))
+    });
     row("off half a spacing from the surface, rms / dp", &|q| short(q.surface));
     row("  the largest", &|q| short(q.surface_max));
     row("smallest distance of two particles / dp", &|q| short(q.spacing_min));

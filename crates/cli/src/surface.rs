@@ -27,8 +27,9 @@ pub fn surface(options: &SurfaceOptions) -> Result<(), Failure> {
     let mut triangles = Vec::new();
     for (name, surface) in surfaces(&case) {
         let Some(surface) = surface else {
-            let message =
-                format!("the surface of `{name}` cannot be written: boxes, balls, hollow balls, cylinders, stents and meshes have triangles, polygons and combined shapes have none");
+            let message = format!(
+                "the surface of `{name}` cannot be written: boxes, balls, hollow balls, cylinders, stents and meshes have triangles, polygons and combined shapes have none"
+            );
             return Err(Failure::Input(message));
         };
         triangles.extend(surface);

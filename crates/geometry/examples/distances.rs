@@ -64,7 +64,10 @@ fn drawn() -> [(&'static str, Shape); 2] {
     let (brick, ball) =
         (Shape::Box { min: [0.0; 3], max: [1.0; 3] }, Shape::Ball { center: [1.0; 3], radius: 0.4 });
     let both = Shape::Union(vec![brick, ball]);
-    [("a stent", Shape::Stent(stent)), ("a box and a ball, less a cylinder", Shape::Difference(Box::new(both), vec![cut]))]
+    [
+        ("a stent", Shape::Stent(stent)),
+        ("a box and a ball, less a cylinder", Shape::Difference(Box::new(both), vec![cut])),
+    ]
 }
 
 fn main() {

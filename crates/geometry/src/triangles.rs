@@ -14,7 +14,11 @@ const FACES: [[usize; 4]; 6] =
 /// Two triangles of each face.
 pub(crate) fn cuboid(min: Point, max: Point) -> Vec<[Point; 3]> {
     let corners = Bounds { min, max }.corners();
-    FACES.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).map(|t| t.map(|k| corners[k])).collect()
+    FACES
+        .iter()
+        .flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]])
+        .map(|t| t.map(|k| corners[k]))
+        .collect()
 }
 
 /// A ball from half circles.
@@ -48,7 +52,8 @@ pub(crate) fn cylinder([from, to]: [Point; 2], radius: f64) -> Vec<[Point; 3]> {
 /// A line of points [distance from the axis, place along it], which begins and ends on the axis, turned around it.
 fn turned(origin: Point, axis: Point, line: &[[f64; 2]]) -> Vec<[Point; 3]> {
     let [a, b, c] = axis;
-    let aside = unit(if a.abs() + b.abs() > c.abs() { [-b, a, 0.0] } else { [0.0, c, -b] }).unwrap_or([1.0, 0.0, 0.0]);
+    let aside = unit(if a.abs() + b.abs() > c.abs() { [-b, a, 0.0] } else { [0.0, c, -b] })
+        .unwrap_or([1.0, 0.0, 0.0]);
     let third = [b * aside[2] - c * aside[1], c * aside[0] - a * aside[2], a * aside[1] - b * aside[0]];
     let point = |[r, z]: [f64; 2], j: usize| {
         let (sin, cos) = (2.0 * PI * (j % AROUND) as f64 / AROUND as f64).sin_cos();

@@ -19,13 +19,10 @@ fn what_is_left_of_odd_meshes_is_filled_well() {
     for name in [
         "plate-with-bores.stl",
         "tube.obj",
-        "torus.stl",
-        "superellipsoid.ascii.stl",
         "ball-with-holes.stl",
         "capsule-flipped.stl",
         "hollow-ball-both-outwards.obj",
         "two-boxes-crossing.stl",
-        "pipe-without-ends.stl",
     ] {
         let mesh = mesh(name);
         let Fit { points, quality, lattice, .. } = fitted(&Shape::Mesh(mesh.clone()));
@@ -45,7 +42,8 @@ fn what_is_left_of_odd_meshes_is_filled_well() {
 
 #[test]
 fn walls_that_lie_inside_of_a_mesh_are_none() {
-    let brick = |min: [f64; 3], max: [f64; 3]| Shape::Box { min: min.map(|c| c * MM), max: max.map(|c| c * MM) };
+    let brick =
+        |min: [f64; 3], max: [f64; 3]| Shape::Box { min: min.map(|c| c * MM), max: max.map(|c| c * MM) };
     let drawn = Shape::Union(vec![
         brick([-10.0, -5.0, -5.0], [10.0, 5.0, 5.0]),
         brick([0.0, -3.0, -5.0], [10.0, 7.0, 15.0]),
@@ -56,7 +54,11 @@ fn walls_that_lie_inside_of_a_mesh_are_none() {
     assert_eq!((of_mesh.points.len(), of_boxes.points.len()), (3200, 3200));
     assert_eq!(got.at_surface, expected.at_surface);
     // Both know the same walls, by other roundings.
-    for (got, expected) in [(got.interior, expected.interior), (got.surface, expected.surface), (got.spacing_min, expected.spacing_min)] {
+    for (got, expected) in [
+        (got.interior, expected.interior),
+        (got.surface, expected.surface),
+        (got.spacing_min, expected.spacing_min),
+    ] {
         assert!((got - expected).abs() < 1e-6, "{got} for {expected}");
     }
 }

@@ -69,11 +69,15 @@ fn the_surface_of_a_stent_is_written_once_as_stl() {
     );
     let ball = "{ ball = { center = [0, 0, 0], radius = 1 } }";
     // 48 strips of 96 pairs, less the halves at the poles.
-    assert!(taut(folder.path(), &["surface", ball, "-o", "b"]).with(0).stdout.contains("9024 triangles in b.stl"));
+    assert!(
+        taut(folder.path(), &["surface", ball, "-o", "b"]).with(0).stdout.contains("9024 triangles in b.stl")
+    );
     let both = format!("{{ union = [{ball}, {ball}] }}");
     let none = taut(folder.path(), &["surface", &both, "-o", "u"]).with(2).stderr;
     assert!(none.contains("polygons and combined shapes have none"), "{none}");
-    let disc = taut(folder.path(), &["surface", "{ ball = { center = [0, 0], radius = 1 } }", "-o", "d"]).with(2).stderr;
+    let disc = taut(folder.path(), &["surface", "{ ball = { center = [0, 0], radius = 1 } }", "-o", "d"])
+        .with(2)
+        .stderr;
     assert!(disc.contains("a shape of the plane has no surface"), "{disc}");
     let crowded = stent.replace("0.3", "1.9");
     let said = taut(folder.path(), &["surface", &crowded, "-o", "c"]).with(2).stderr;

@@ -140,9 +140,13 @@ impl MeshReport {
         if self.crossings.at.is_some() || self.crossings.tangled {
             let told = self.crossings_in_words(unit);
             let rest = if self.united {
-                format!("its {} are united, and walls inside of others are none", count(self.pieces, "piece", "pieces"))
+                format!(
+                    "its {} are united, and walls inside of others are none",
+                    count(self.pieces, "piece", "pieces")
+                )
             } else {
-                "join such parts in the program that drew them, or give each a file and unite them".to_string()
+                "join such parts in the program that drew them, or give each a file and unite them"
+                    .to_string()
             };
             doubts.push(format!("it meets itself: {told}; {rest}"));
         }
