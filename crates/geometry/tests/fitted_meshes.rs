@@ -19,13 +19,10 @@ fn what_is_left_of_odd_meshes_is_filled_well() {
     for name in [
         "plate-with-bores.stl",
         "tube.obj",
-        "torus.stl",
-        "superellipsoid.ascii.stl",
         "ball-with-holes.stl",
         "capsule-flipped.stl",
         "hollow-ball-both-outwards.obj",
         "two-boxes-crossing.stl",
-        "pipe-without-ends.stl",
     ] {
         let mesh = mesh(name);
         let Fit { points, quality, lattice, .. } = fitted(&Shape::Mesh(mesh.clone()));

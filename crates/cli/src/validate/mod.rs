@@ -26,6 +26,7 @@ const BENCHMARKS: &[(&str, &str)] = &[
     ("tl-twisting-column", include_str!("../../../../validation/tl-twisting-column/accept.toml")),
     ("tl-flag", include_str!("../../../../validation/tl-flag/accept.toml")),
     ("tl-punch", include_str!("../../../../validation/tl-punch/accept.toml")),
+    ("tl-stent", include_str!("../../../../validation/tl-stent/accept.toml")),
     ("contact-hertz", include_str!("../../../../validation/contact-hertz/accept.toml")),
     ("contact-sphere", include_str!("../../../../validation/contact-sphere/accept.toml")),
     ("contact-bars", include_str!("../../../../validation/contact-bars/accept.toml")),
