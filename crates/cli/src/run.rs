@@ -11,8 +11,8 @@ use crate::signals;
 use case::Case;
 use case::run::{Checkpoints, Interrupted, ResumeError, RunError, Settings};
 use case::run::{resume as resume_case, run as run_case};
-use output::Summary;
 use output::checkpoint::kept;
+use output::{ResultDir, Summary};
 use std::path::{Path, PathBuf};
 
 /// Runs a case, or goes on with one; draws its pictures, says where everything is.
@@ -82,6 +82,10 @@ fn undrawn(results: &Path) -> bool {
 fn redraw(results: PathBuf, quiet: bool) -> Result<(), Failure> {
     if !quiet {
         complain!("the run in {} has come to its end; its pictures are drawn now", results.display());
+    }
+    // A picture that was begun when the run was killed.
+    if let Ok(directory) = ResultDir::reopen(&results) {
+        directory.sweep();
     }
     report(&ReportOptions::usual(results, quiet))
 }

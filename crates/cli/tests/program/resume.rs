@@ -129,3 +129,17 @@ fn what_cannot_be_resumed_is_said() {
     let told = taut(folder.path(), &["run", "case.toml", "--resume", "out/block"]).with(2).stderr;
     assert!(told.contains("cannot be used with"), "{told}");
 }
+
+/// Killed in the middle of a picture, after the last frame.
+#[test]
+fn pictures_of_a_run_that_has_ended_are_drawn_later() {
+    let folder = with_case(BLOCK);
+    taut(folder.path(), &["run", "case.toml"]).with(0);
+    let [picture, torn] =
+        ["end.png", ".unfinished-abc"].map(|name| folder.path().join("out/block").join(name));
+    let drawn = std::fs::read(&picture).expect("a picture");
+    std::fs::rename(&picture, &torn).expect("renamed");
+    let told = taut(folder.path(), &["run", "--resume", "out/block"]).with(0).stderr;
+    assert!(told.contains("pictures are drawn now"), "{told}");
+    assert!(std::fs::read(&picture).is_ok_and(|again| again == drawn) && !torn.exists());
+}
