@@ -4,6 +4,11 @@ source "$(dirname "$0")/common.sh"
 times=${1:-10}
 undisturbed
 
+# Deletes, however much is written meanwhile.
+delete() {
+    until rm -rf "$1" 2>/dev/null; do :; done
+}
+
 # Begins a run, and waits for a random moment of it.
 begin() {
     out=$scratch/run
@@ -17,7 +22,7 @@ begin() {
 for i in $(seq "$times"); do
     # The whole directory: the next frame has nowhere to go. Nothing may be made again in its place.
     begin
-    rm -rf "$out" || rm -rf "$out"
+    delete "$out"
     status=0
     wait $child || status=$?
     judge "everything" failed_well "$scratch/said" 1 $status
@@ -25,7 +30,7 @@ for i in $(seq "$times"); do
 
     # The checkpoints: they are made again, and the run ends well.
     begin
-    rm -rf "$out/checkpoint" || rm -rf "$out/checkpoint"
+    delete "$out/checkpoint"
     status=0
     wait $child || status=$?
     judge "checkpoints" [ "$status" = 0 ]
