@@ -109,6 +109,27 @@ pub struct Momentum {
     pub linear: Balance,
     /// Angular momentum about the origin, kg m^2/s.
     pub angular: Balance,
+    /// What the pair forces themselves do to the angular momentum, where a form does not keep it.
+    #[serde(default)]
+    pub couples: Couples,
+}
+
+/// The moment of the pair forces of forms that do not keep angular momentum, summed up between the samples of the books.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Couples {
+    /// Its impulse, N m s.
+    #[serde(deserialize_with = "nullable::vector")]
+    pub impulse: [f64; 3],
+    /// The same with the sizes of the couples of all particles, as if none cancelled another, N m s: no more can be missing.
+    #[serde(deserialize_with = "nullable::number")]
+    pub bound: f64,
+    /// The largest of all samples of what is missing of the angular momentum, over `bound`; not a number where there is none.
+    #[serde(deserialize_with = "nullable::number")]
+    pub share: f64,
+    /// The largest of all samples of what is missing beside `impulse`, over the `scale` of the angular momentum: the error of the sum.
+    #[serde(deserialize_with = "nullable::number")]
+    pub worst_residual: f64,
 }
 
 /// One measure of disorder over the run.

@@ -1,6 +1,7 @@
 //! The books of energy and momentum over the run: `audit.csv`, `reactions.csv`, and the worst that was missing.
 
 use super::checkpoint::{TOTALS, of_totals, totals};
+use super::couples::{Couples, NUMBERS};
 use super::error::RunError;
 use super::sheet::Sheet;
 use crate::{Case, Quantity};
@@ -24,6 +25,8 @@ pub struct Audit {
     scale: [f64; 3],
     /// Time, kinetic, strain and total energy of every sample.
     history: Vec<[f64; 4]>,
+    /// What the pair forces themselves did to the angular momentum.
+    couples: Couples,
 }
 
 /// initial + external work - dissipated - (kinetic + strain + contact), J.
@@ -41,7 +44,7 @@ fn energy(totals: &Totals) -> f64 {
     totals.kinetic + totals.strain + totals.contact
 }
 
-fn length(v: [f64; 3]) -> f64 {
+pub(super) fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
@@ -83,6 +86,7 @@ impl Audit {
             worst: [0.0; 3],
             scale: [0.0; 3],
             history: Vec::new(),
+            couples: Couples::default(),
         })
     }
 
@@ -103,7 +107,8 @@ impl Audit {
     /// The books as numbers, to be kept.
     pub fn saved(&self) -> Vec<f64> {
         let start = self.start.map(|start| of_totals(&start)).unwrap_or(vec![f64::NAN; TOTALS]);
-        [&start[..], &self.worst, &self.scale, self.history.as_flattened()].concat()
+        let couples = self.couples.saved();
+        [&start[..], &self.worst, &self.scale, &couples, self.history.as_flattened()].concat()
     }
 
     /// Goes on with the tables from where they were at these marks, and with books that were kept.
@@ -122,7 +127,8 @@ impl Audit {
         let mut tables = tables.into_iter();
         let (start, rest) = books.split_at_checked(TOTALS).ok_or_else(damaged)?;
         let (worst, rest) = rest.split_first_chunk::<3>().ok_or_else(damaged)?;
-        let (scale, history) = rest.split_first_chunk::<3>().ok_or_else(damaged)?;
+        let (scale, rest) = rest.split_first_chunk::<3>().ok_or_else(damaged)?;
+        let (couples, history) = rest.split_first_chunk::<NUMBERS>().ok_or_else(damaged)?;
         Ok(Self {
             table: tables.next().ok_or_else(damaged)?,
             reactions: tables.next(),
@@ -131,6 +137,7 @@ impl Audit {
             worst: *worst,
             scale: *scale,
             history: history.as_chunks::<4>().0.to_vec(),
+            couples: Couples::restored(couples),
         })
     }
 
@@ -164,7 +171,13 @@ impl Audit {
     fn note(&mut self, time: f64, now: &Totals) {
         let start = *self.start.get_or_insert(*now);
         self.history.push([time, now.kinetic, now.strain, energy(now)]);
-        let missing = missing(&start, now);
+        let turned = missing(start.angular_momentum, now.angular_momentum, now.impulse.angular);
+        self.couples.look(time, now, turned);
+        let missing = [
+            residual(&start, now).abs(),
+            length(missing(start.momentum, now.momentum, now.impulse.linear)),
+            length(turned),
+        ];
         let scale = [
             supplied(&start, now),
             now.motion[0].max(length(now.impulse.linear)),
@@ -219,20 +232,14 @@ impl Audit {
         Momentum {
             linear: with(Balance::new(start.momentum, end.momentum, end.impulse.linear), 1),
             angular: with(Balance::new(start.angular_momentum, end.angular_momentum, end.impulse.angular), 2),
+            couples: self.couples.summary(self.worst[2], self.scale[2]),
         }
     }
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Sizes of what is missing of energy, momentum and angular momentum.
-fn missing(start: &Totals, now: &Totals) -> [f64; 3] {
-    let rest = |before: [f64; 3], after: [f64; 3], given: [f64; 3]| {
-        length(std::array::from_fn(|i| after[i] - before[i] - given[i]))
-    };
-    [
-        residual(start, now).abs(),
-        rest(start.momentum, now.momentum, now.impulse.linear),
-        rest(start.angular_momentum, now.angular_momentum, now.impulse.angular),
-    ]
+/// What a momentum has changed by beside what was given.
+fn missing(before: [f64; 3], after: [f64; 3], given: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| after[i] - before[i] - given[i])
 }

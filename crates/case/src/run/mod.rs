@@ -8,6 +8,7 @@ mod compare;
 mod contact;
 mod convergence;
 mod costs;
+mod couples;
 pub mod curves;
 mod diagnosis;
 mod error;

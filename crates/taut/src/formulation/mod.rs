@@ -3,7 +3,7 @@
 mod kick;
 pub mod small_strain;
 pub mod total;
-mod undeformed;
+pub mod undeformed;
 pub mod updated;
 
 use crate::field::Quantity;
@@ -52,4 +52,6 @@ pub struct State {
     pub strain_energy: f64,
     /// What the damper has been booked with beyond the present time, J, where fields run ahead of it.
     pub booked_ahead: f64,
+    /// Moment, N m, of the pair forces that the stress of this particle makes: zero where a form keeps angular momentum, and where it is not told.
+    pub couple: [f64; 3],
 }

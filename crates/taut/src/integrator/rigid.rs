@@ -216,6 +216,7 @@ impl Solver for Rigid {
             cauchy: Tensor::zero(),
             strain_energy: 0.0,
             booked_ahead: 0.0,
+            couple: [0.0; 3],
         }
     }
 }

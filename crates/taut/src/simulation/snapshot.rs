@@ -135,6 +135,10 @@ pub struct Totals {
     pub impulse: Impulse,
     /// Sum of m |v|, kg m/s, and of m |x| |v|, kg m^2/s: what an error of the momenta is small or large against.
     pub motion: [f64; 2],
+    /// Moment of all pair forces, N m: what a form that does not keep angular momentum changes it by.
+    pub couple: [f64; 3],
+    /// Sum of the sizes of the couples of all particles, N m: what `couple` can be at most, and is where none cancels another.
+    pub couples: f64,
 }
 
 impl Totals {
@@ -147,7 +151,9 @@ impl Totals {
         for i in 0..3 {
             self.momentum[i] += other.momentum[i];
             self.angular_momentum[i] += other.angular_momentum[i];
+            self.couple[i] += other.couple[i];
         }
+        self.couples += other.couples;
         self.motion[0] += other.motion[0];
         self.motion[1] += other.motion[1];
         self
@@ -164,7 +170,9 @@ impl Totals {
         for i in 0..3 {
             self.momentum[i] += m * v[i];
             self.angular_momentum[i] += m * moment[i];
+            self.couple[i] += seen.state.couple[i];
         }
+        self.couples += seen.state.couple.iter().map(|c| c * c).sum::<f64>().sqrt();
         let speed = v.iter().map(|c| c * c).sum::<f64>().sqrt();
         self.motion[0] += m * speed;
         self.motion[1] += m * speed * x.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -23,4 +23,5 @@ mod spinning;
 mod storage;
 mod threads;
 mod time_step;
+mod written;
 mod zigzag;

@@ -154,21 +154,21 @@ impl Settling {
 }
 
 /// How many numbers [`of_totals`] are.
-pub const TOTALS: usize = 19;
+pub const TOTALS: usize = 23;
 
 /// Energies, momenta and impulses as numbers.
 pub fn of_totals(t: &Totals) -> Vec<f64> {
     let energies = [t.kinetic, t.strain, t.dissipated, t.external_work, t.contact];
-    let vectors = [t.momentum, t.angular_momentum, t.impulse.linear, t.impulse.angular];
-    [&energies, vectors.as_flattened(), &t.motion].concat()
+    let vectors = [t.momentum, t.angular_momentum, t.impulse.linear, t.impulse.angular, t.couple];
+    [&energies, vectors.as_flattened(), &t.motion, &[t.couples]].concat()
 }
 
 /// The other way round.
 pub fn totals(numbers: &[f64]) -> Option<Totals> {
     let (&[kinetic, strain, dissipated, external_work, contact], rest) = numbers.split_first_chunk()?;
-    let (vectors, motion) = rest.split_first_chunk::<12>()?;
+    let (vectors, motion) = rest.split_first_chunk::<15>()?;
     let vector = |index: usize| std::array::from_fn(|i| vectors[3 * index + i]);
-    let motion: [f64; 2] = motion.try_into().ok()?;
+    let [linear, angular, couples] = motion.try_into().ok()?;
     let (momentum, angular_momentum) = (vector(0), vector(1));
     let impulse = Impulse { linear: vector(2), angular: vector(3) };
     Some(Totals {
@@ -180,6 +180,8 @@ pub fn totals(numbers: &[f64]) -> Option<Totals> {
         momentum,
         angular_momentum,
         impulse,
-        motion,
+        motion: [linear, angular],
+        couple: vector(4),
+        couples,
     })
 }

@@ -87,6 +87,7 @@ impl<N: Normalisation, const D: usize> Formulation<D> for SmallStrain<N> {
             cauchy: self.material.cauchy(h),
             strain_energy: self.material.energy(h) * word(Quantity::Volume, 0),
             booked_ahead: 0.0,
+            couple: [0.0; 3],
         }
     }
 }

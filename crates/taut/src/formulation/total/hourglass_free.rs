@@ -77,6 +77,33 @@ impl<const D: usize> PairSum<D> for Momentum {
     }
 }
 
+impl<M: PairShear> HourglassFree<M> {
+    /// The torque of all pair forces is the sum of V e : (R F^-T M F^T), where R is tau_r with the damping stress, M the moment matrix (TL Eq. 21), whose
+    /// inverse is B, and e the permutation symbol: forces have the gradient of the kernel where F has it corrected. It vanishes where M is a
+    /// multiple of 1, since R is symmetric. The shear of the pairs cancels: w X = grad W, and M is symmetric.
+    ///
+    /// Of fields as they stand, half a step ahead of the velocity: that is where the next force acts.
+    fn couple<const D: usize>(&self, run: &impl Run<D>, place: usize) -> [f64; 3] {
+        let tensor = |field| Tensor::<f64, D>::from_fn(|i, j| run.word(field, i * D + j, place));
+        let (f, rate) = (tensor(Quantity::DeformationGradient), tensor(Quantity::DeformationRate));
+        let stress = self.reduced(f, self.solid.damping(f, rate)).0;
+        let moment = tensor(Quantity::Correction).inverse();
+        let turning = stress.mul(f.inverse().transpose()).mul(moment).mul(f.transpose()).lift(0.0);
+        let weight = self.gain * run.word(Quantity::Volume, 0, place);
+        std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            weight * (turning[i][j] - turning[j][i])
+        })
+    }
+
+    /// tau_r = (volumetric - s ratio) 1 + tau_d, and s.
+    #[inline(always)]
+    fn reduced<S: Real, const D: usize>(&self, f: Tensor<S, D>, damping: Tensor<S, D>) -> (Tensor<S, D>, S) {
+        let split = self.solid.material.split(f, self.zeta);
+        (damping.plus_diagonal(split.volumetric - split.pair * split.ratio), split.pair)
+    }
+}
+
 impl<M: PairShear, const D: usize> Stress<D> for HourglassFree<M> {
     type Material = M;
 
@@ -93,9 +120,8 @@ impl<M: PairShear, const D: usize> Stress<D> for HourglassFree<M> {
         damping: Tensor<S, D>,
         _: Tensor<S, D>,
     ) -> (Tensor<S, D>, S) {
-        let split = self.solid.material.split(f, self.zeta);
-        let reduced = damping.plus_diagonal(split.volumetric - split.pair * split.ratio);
-        (reduced.mul(f.inverse().transpose()).plus_diagonal(split.pair), split.pair)
+        let (reduced, pair) = self.reduced(f, damping);
+        (reduced.mul(f.inverse().transpose()).plus_diagonal(pair), pair)
     }
 }
 
@@ -115,6 +141,6 @@ impl<M: PairShear, const D: usize> Formulation<D> for HourglassFree<M> {
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State {
-        self.solid.state(run, place, ahead)
+        State { couple: self.couple(run, place), ..self.solid.state(run, place, ahead) }
     }
 }

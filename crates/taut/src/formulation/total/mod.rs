@@ -9,7 +9,7 @@ mod reference;
 
 pub use ganzenmueller::Ganzenmueller;
 pub use hourglass_free::HourglassFree;
-pub use motion::Stress;
+pub use motion::{Kick, Stress, Stretch};
 pub use nested::Nested;
 
 use super::State;
@@ -109,6 +109,7 @@ impl<M: Hyperelastic> Solid<M> {
             cauchy: self.material.kirchhoff(f).times(1.0 / j),
             strain_energy: self.material.energy(f) * word(Quantity::Volume, 0),
             booked_ahead: if ahead > 0.0 { ahead * power * word(Quantity::Volume, 0) } else { 0.0 },
+            couple: [0.0; 3],
         }
     }
 }

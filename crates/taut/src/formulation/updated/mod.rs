@@ -150,6 +150,7 @@ pub(crate) fn state<const D: usize>(
         cauchy: s.plus_diagonal(-pressure),
         strain_energy: word(Quantity::Mass) * c2 * (ratio.ln() + 1.0 / ratio - 1.0) + shear_energy,
         booked_ahead: 0.0,
+        couple: [0.0; 3],
     }
 }
 

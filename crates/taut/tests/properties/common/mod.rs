@@ -1,6 +1,7 @@
 //! What the property tests share: a material, particles, bodies of every formulation, and a clock without drives.
 #![allow(dead_code, reason = "every test binary uses its own share")]
 
+pub mod as_written;
 pub mod points;
 
 use taut::field::Quantity;
