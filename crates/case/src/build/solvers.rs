@@ -122,6 +122,7 @@ fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
     match formulation {
         Formulation::UlNested => UpdatedForm::Nested,
         Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+        Formulation::UlArtificialStressCorrected => UpdatedForm::CorrectedArtificialStress,
         Formulation::UlLaplacian => UpdatedForm::Laplacian,
         Formulation::UlGeneralised => UpdatedForm::Generalised,
         Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
