@@ -53,6 +53,16 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
                     format!("the bodies before it use {}", group.bodies[0].1.scheme.formulation.name());
                 return Err(case.error_at(body.place, message, Some(help)));
             }
+            Some(group) if model(case, group.bodies[0].1) != model(case, body) => {
+                let message = format!(
+                    "the material `{}` of body `{}` has another model, but updated Lagrangian bodies share their pairs and need one",
+                    body.material, body.name
+                );
+                let first = group.bodies[0].1;
+                let help =
+                    format!("the bodies before it, such as `{}`, are {}", first.name, model(case, first));
+                return Err(case.error_at(body.place, message, Some(help)));
+            }
             Some(group) if group.bodies[0].1.scheme.smoothing != body.scheme.smoothing => {
                 let message = format!(
                     "body `{}` has its own `smoothing`, but updated Lagrangian bodies share their pairs and need one",
@@ -68,6 +78,11 @@ pub fn groups<const D: usize>(case: &Case) -> Result<Vec<Group<'_, D>>, CaseErro
         }
     }
     Ok(groups)
+}
+
+/// The name of the model of a body's material.
+fn model(case: &Case, body: &Body) -> &'static str {
+    case.material_of(body).map_or("", |material| material.model.name())
 }
 
 /// Places and volumes of the particles of a shape.

@@ -102,7 +102,7 @@ where
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
-            let form = updated_form(case, scheme.formulation);
+            let form = updated_form(case, body);
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
@@ -118,12 +118,14 @@ fn unfit(case: &Case, body: &Body) -> CaseError {
 }
 
 /// An updated Lagrangian formulation.
-fn updated_form(case: &Case, formulation: Formulation) -> UpdatedForm {
-    match formulation {
+fn updated_form(case: &Case, body: &Body) -> UpdatedForm {
+    let rubber = case.material_of(body).is_some_and(|material| material.model == Model::NeoHookean);
+    match body.scheme.formulation {
         Formulation::UlNested => UpdatedForm::Nested,
         Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
         Formulation::UlArtificialStressCorrected => UpdatedForm::CorrectedArtificialStress,
         Formulation::UlLaplacian => UpdatedForm::Laplacian,
+        Formulation::UlGeneralised if rubber => UpdatedForm::GeneralisedNeoHookean,
         Formulation::UlGeneralised => UpdatedForm::Generalised,
         Formulation::UlLowDissipation => UpdatedForm::LowDissipation,
         _ if !case.shear_stress => UpdatedForm::UnwatchedNonHourglass,

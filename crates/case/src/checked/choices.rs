@@ -78,7 +78,7 @@ impl Words for Formulation {
         (
             "ul-generalised",
             Self::UlGeneralised,
-            "updated Lagrangian, free of hourglass modes, objective, with exact moduli; dearer than ul-non-hourglass; material linear-elastic",
+            "updated Lagrangian, free of hourglass modes, objective, with exact moduli; dearer than ul-non-hourglass; materials linear-elastic and, for what is stretched far, neo-hookean",
         ),
         (
             "ul-artificial-stress",

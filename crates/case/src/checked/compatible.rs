@@ -22,11 +22,11 @@ fn models(formulation: Formulation) -> &'static [Model] {
         Formulation::TlNested | Formulation::TlGanzenmueller => {
             &[Model::NeoHookean, Model::NeoHookeanLog, Model::SaintVenantKirchhoff]
         }
+        Formulation::UlGeneralised => &[Model::LinearElastic, Model::NeoHookean],
         Formulation::UlNonHourglass
         | Formulation::UlNested
         | Formulation::UlArtificialStress
         | Formulation::UlArtificialStressCorrected
-        | Formulation::UlGeneralised
         | Formulation::UlLowDissipation
         | Formulation::UlLaplacian
         | Formulation::SmallStrain => &[Model::LinearElastic],

@@ -46,7 +46,11 @@ pub enum Model {
 
 impl Words for Model {
     const WORDS: &'static [(&'static str, Self, &'static str)] = &[
-        ("neo-hookean", Self::NeoHookean, "neo-Hookean with the volume part K/2 (J^2 - 1): rubber"),
+        (
+            "neo-hookean",
+            Self::NeoHookean,
+            "neo-Hookean with the volume part K/2 (J^2 - 1): rubber; in ul-generalised with the pressure c0^2 (rho - rho0)",
+        ),
         ("neo-hookean-log", Self::NeoHookeanLog, "neo-Hookean with the volume part lambda ln J"),
         (
             "saint-venant-kirchhoff",
@@ -56,7 +60,7 @@ impl Words for Model {
         (
             "linear-elastic",
             Self::LinearElastic,
-            "linear in the rate of deformation: what updated Lagrangian formulations take",
+            "linear in the rate of deformation: what updated Lagrangian formulations take; its shear stress falls again where shear is beyond 1.6",
         ),
     ];
 }

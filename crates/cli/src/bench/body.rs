@@ -135,6 +135,10 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::CorrectedArtificialStress(plain))
         }
         Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
+        Form::Updated(UpdatedForm::GeneralisedNeoHookean, _) => {
+            let stress = updated::NeoHookeanShear { plane: Plane::Strain };
+            operations::<D>(&updated::Generalised::new(stress, 1))
+        }
         Form::Updated(UpdatedForm::LowDissipation, _) => {
             operations::<D>(&updated::LowDissipation::new(stress, D))
         }

@@ -106,6 +106,7 @@ const fn updated(form: UpdatedForm) -> &'static str {
         UpdatedForm::Laplacian => "ul-laplacian",
         UpdatedForm::LowDissipation => "ul-low-dissipation",
         UpdatedForm::Generalised => "ul-generalised",
+        UpdatedForm::GeneralisedNeoHookean => "ul-generalised-neo-hookean",
     }
 }
 

@@ -7,7 +7,7 @@ use crate::formulation::small_strain::{Adjoint, Bare, Literal, Normalisation, Sm
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{
     self as updated_forms, ArtificialStress, CorrectedArtificialStress, Generalised, Hypoelastic, Laplacian,
-    LowDissipation, NonHourglass, Unwatched,
+    LowDissipation, NeoHookeanShear, NonHourglass, ShearLaw, Unwatched,
 };
 use crate::integrator::{TotalOptions, UpdatedOptions};
 use crate::material::{
@@ -110,6 +110,8 @@ pub enum UpdatedForm {
     Laplacian,
     /// `ul-generalised`.
     Generalised,
+    /// `ul-generalised` with the shear stress of the neo-Hookean solid.
+    GeneralisedNeoHookean,
     /// `ul-low-dissipation`.
     LowDissipation,
     /// `ul-non-hourglass` without a shear stress to be looked at.
@@ -293,11 +295,8 @@ fn updated_of<const D: usize>(
             let form = Laplacian { stress };
             body.waved(&|m| form.shear_speed(m)).with(form)
         }
-        UpdatedForm::Generalised => {
-            let bodies = points.iter().map(|p| p.body + 1).max().unwrap_or(0);
-            let form = Generalised::new(stress, bodies);
-            body.waved(&|m| form.shear_speed(m, D)).with(form)
-        }
+        UpdatedForm::Generalised => body.generalised(stress),
+        UpdatedForm::GeneralisedNeoHookean => body.generalised(NeoHookeanShear { plane: stress.plane }),
         UpdatedForm::Nested => body.with(updated_forms::Nested { stress }),
         UpdatedForm::ArtificialStress => {
             body.with(ArtificialStress::new(stress, options.kernel, spacing(points)))
@@ -328,6 +327,12 @@ impl<const D: usize> UpdatedBodies<'_, D> {
     /// cent a period of the plate of UL section 6.1.
     fn centred(self) -> Self {
         Self { options: UpdatedOptions { ahead: 0.5, ..self.options }, ..self }
+    }
+
+    fn generalised<L: ShearLaw>(self, law: L) -> Box<dyn Solver> {
+        let bodies = self.points.iter().map(|p| p.body + 1).max().unwrap_or(0);
+        let form = Generalised::new(law, bodies);
+        self.waved(&|m| form.shear_speed(m, D)).with(form)
     }
 
     fn with<F: Formulation<D> + 'static>(&self, formulation: F) -> Box<dyn Solver> {

@@ -137,10 +137,11 @@ fn assert_stiffnesses(found: [f64; 3], expected: [f64; 3], what: &str) {
 
 /// The generalised form has K + 4/3 G, G and K - 2/3 G as they are, in the plane and in space.
 fn generalised_in<const D: usize>(n: [usize; D]) -> [f64; 3] {
-    let (form, m) = (Setup::new(DP).generalised(), Setup::new(DP).moduli);
-    let found = stiffnesses(form, n);
+    let (setup, m) = (Setup::new(DP), Setup::new(DP).moduli);
+    let found = stiffnesses(setup.generalised(), n);
     let hooke = [m.bulk + 4.0 / 3.0 * m.shear, m.shear, m.bulk - 2.0 / 3.0 * m.shear];
     assert_stiffnesses(found, hooke, "generalised");
+    assert_stiffnesses(stiffnesses(setup.generalised_rubber(), n), hooke, "generalised, rubber");
     found
 }
 

@@ -61,8 +61,13 @@ fn turns<F: Formulation<2> + Copy>(form: F, stepping: Stepping) -> Option<Vec<[f
 /// From the third turn, when the breathing that the sudden start set off has died away, to the tenth: stress, pressure and spin stay.
 #[test]
 fn a_plate_in_the_generalised_form_spins_without_drift() {
+    stays(Setup::new(DP).generalised());
+    stays(Setup::new(DP).generalised_rubber());
+}
+
+fn stays<F: Formulation<2> + Copy>(form: F) {
     for stepping in [Stepping::Dual, Stepping::Single] {
-        let seen = turns(Setup::new(DP).generalised(), stepping).expect("it goes on");
+        let seen = turns(form, stepping).expect("it goes on");
         let (early, late) = (seen[2], seen[TURNS - 1]);
         assert!(early[0] > 0.05 && early[1] < -0.1, "there is a stress to drift: {seen:?}");
         for k in 0..3 {

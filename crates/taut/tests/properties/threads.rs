@@ -100,6 +100,7 @@ fn corrected_artificial_stress_in_the_plane() {
 #[test]
 fn generalised_in_the_plane() {
     updated(Setup::new(DP).generalised());
+    updated(Setup::new(DP).generalised_rubber());
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! The generalised non-hourglass formulation, `ul-generalised` (Zhang, Wu, Lourenco and Hu 2025), for elastic solids.
 
-use super::integrated::{Rates, state};
+use super::integrated::Rates;
 use super::kick::{Kick, Push};
 use super::motion::{Drift, MomentSum};
 use super::pressure::damp;
-use super::{FIELDS, Hypoelastic, joined, same_body};
+use super::shear_law::{Increment, ShearLaw};
+use super::{FIELDS, ShearTensor, joined, same_body};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
@@ -16,38 +17,45 @@ use crate::run::Run;
 /// The nested form, and A, a shear acceleration that is accumulated from what the gradients of velocity do not tell of the difference of
 /// velocities in a pair:
 ///
-/// dA/dt = w x A + xi (G/rho) sum_b \[(v_ab - (L_a + L_b)/2 . x_ab) . e / r\] grad W V_b inside the body.
+/// dA/dt = w x A + (M/rho) sum_b \[(v_ab - (L_a + L_b)/2 . x_ab) . e / r\] grad W V_b inside the body.
 ///
-/// It vanishes for every linear field, so that moduli are those of the nested part: exact, since strain and force are both corrected by B. What is carried (s, A)
-/// turns with the particle by (1 - w dt/2)^-1 (1 + w dt/2), a rotation (Hughes and Winget 1980), so that a rigid motion leaves
+/// M = K + 4/3 G, which is ours: the published xi G, with xi = 4, is as stiff where nu is 1/3. What gradients do not tell are rows that part or close up, and
+/// that is resisted by the bulk modulus too: where K is 50 G and a plate is stretched over its clamp, 4 G and 16 G let it tear.
+///
+/// It vanishes for every linear field, so that moduli are those of the nested part: exact, since strain and force are both corrected by B. What is carried (s, by its
+/// law, and A) turns with the particle, A by (1 - w dt/2)^-1 (1 + w dt/2), a rotation (Hughes and Winget 1980), so that a rigid motion leaves
 /// no stress, however long it lasts. Between two lists everything is referred to the positions of the list by F, the deformation since then, which is ours: the
 /// published form takes gradients of the list for present ones, and a spin swells it a little with every list.
 ///
 /// Turning A particle by particle leaves a small resultant, which is given back to its body in equal shares of mass (ours as well): momentum is exact.
 #[derive(Clone, Copy, Debug)]
-pub struct Generalised {
+pub struct Generalised<L> {
     /// The shear stress.
-    pub stress: Hypoelastic,
-    /// Strength of the control.
-    pub xi: f64,
+    pub stress: L,
     /// How many bodies there are.
     pub bodies: u32,
 }
 
-impl Generalised {
-    /// With xi = 4, which is stable without the published limiter.
+impl<L: ShearLaw> Generalised<L> {
+    /// With this law.
     #[must_use]
-    pub fn new(stress: Hypoelastic, bodies: u32) -> Self {
-        Self { stress, xi: 4.0, bodies }
+    pub const fn new(stress: L, bodies: u32) -> Self {
+        Self { stress, bodies }
     }
 
-    /// sqrt((K + 4/3 G + 3 xi G / (2 (d + 2))) / rho0), m/s: the wave of the nested part and that of the control, which is half as much as UL Eq. (19)
-    /// with zeta = xi. Long waves have the first, short ones the second.
+    /// sqrt(M (1 + 3 / (2 (d + 2))) / rho0), m/s: the wave of the nested part and that of the control, which is half as much as UL Eq. (19)
+    /// with zeta G = M. Long waves have the first, short ones the second.
     #[must_use]
     pub fn shear_speed(&self, moduli: &Moduli, dimension: usize) -> f64 {
-        let control = 1.5 * self.xi / (dimension as f64 + 2.0);
-        ((moduli.bulk + (4.0 / 3.0 + control) * moduli.shear) / moduli.density).sqrt()
+        let control = 1.5 / (dimension as f64 + 2.0);
+        (longitudinal(moduli.bulk, moduli.shear) * (1.0 + control) / moduli.density).sqrt()
     }
+}
+
+/// K + 4/3 G, Pa.
+#[inline(always)]
+fn longitudinal<S: Real>(bulk: S, shear: S) -> S {
+    shear.mul_add(S::of(4.0 / 3.0), bulk)
 }
 
 record! {
@@ -57,6 +65,7 @@ record! {
     Carrying {
         f: DeformationGradient, s: ShearStress, axial: AxialShearStress, shear: ShearAcceleration,
         rate: DeformationRate, g: ShearModulus, p: Pressure, correction: Correction,
+        density: Density, rest: RestDensity,
     }
     /// Carried by half a step, with the stress that is handed to neighbours.
     Stressed {
@@ -81,7 +90,7 @@ record! {
     /// The sum of the control.
     Control { g: ControlForce }
     /// A particle whose A grows.
-    Growing { m: Mass, volume: Volume, g: ShearModulus, shear: ShearAcceleration }
+    Growing { m: Mass, volume: Volume, g: ShearModulus, c0: SoundSpeed, rest: RestDensity, shear: ShearAcceleration }
     /// Its A.
     Grown { shear: ShearAcceleration }
     /// What a new list refers to.
@@ -90,7 +99,7 @@ record! {
     Share { m: Mass, shear: ShearAcceleration, body: Body }
 }
 
-impl Generalised {
+impl<L: ShearLaw> Generalised<L> {
     /// What is carried, after `time` with the rate dF/dt: strain and spin from the middle of the way.
     #[inline(always)]
     fn carry<S: Real, const D: usize>(
@@ -100,22 +109,19 @@ impl Generalised {
         time: S,
     ) -> Carried<S, D> {
         let change = rate.times(time);
-        let step = change.mul(from.f.plus(S::of(0.5), change).inverse());
-        let turn = step.antisymmetric().times(S::of(0.5)).rotation();
-        let added = self.stress.of_strain(step.symmetric(), g);
-        Carried {
-            f: from.f + change,
-            s: turn.mul(from.s).mul(turn.transpose()) + added.s,
-            axial: from.axial + added.axial,
-            shear: turn.mul_vector(from.shear),
-        }
+        let gradient = change.mul(from.f.plus(S::of(0.5), change).inverse());
+        let turn = gradient.antisymmetric().times(S::of(0.5)).rotation();
+        let f = change.mul(from.f.inverse()).plus_diagonal(S::one());
+        let before = ShearTensor { s: from.s, axial: from.axial };
+        let ShearTensor { s, axial } = self.stress.carried(before, &Increment { gradient, turn, f }, g);
+        Carried { f: from.f + change, s, axial, shear: turn.mul_vector(from.shear) }
     }
 }
 
 /// The first half of a step, and Q = J (s - p 1) F^-T B.
-struct Carry<'a>(&'a Generalised);
+struct Carry<'a, L>(&'a Generalised<L>);
 
-impl<const D: usize> Update<D> for Carry<'_> {
+impl<L: ShearLaw, const D: usize> Update<D> for Carry<'_, L> {
     type Sum = ();
     type Reads = Carrying<f64, D>;
     type Writes = Stressed<f64, D>;
@@ -124,7 +130,8 @@ impl<const D: usize> Update<D> for Carry<'_> {
     fn at<S: Real>(&self, (): &(), a: &Carrying<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
         let from = Carried { f: a.f, s: a.s, axial: a.axial, shear: a.shear };
         let Carried { f, s, axial, shear } = self.0.carry(from, (a.rate, a.g), now.dt * S::of(0.5));
-        let q = s.plus_diagonal(-a.p).mul(f.cofactor()).mul(a.correction);
+        let cauchy = self.0.stress.cauchy(ShearTensor { s, axial }, a.density / a.rest);
+        let q = cauchy.s.plus_diagonal(-a.p).mul(f.cofactor()).mul(a.correction);
         Stressed { f, s, axial, shear, q }
     }
 }
@@ -181,9 +188,9 @@ impl<const D: usize> PairSum<D> for RateSum {
 }
 
 /// New rates, and the second half of the step with them.
-struct Follow<'a>(&'a Generalised);
+struct Follow<'a, L>(&'a Generalised<L>);
 
-impl<const D: usize> Update<D> for Follow<'_> {
+impl<L: ShearLaw, const D: usize> Update<D> for Follow<'_, L> {
     type Sum = Rates<f64, D>;
     type Reads = Before<f64, D>;
     type Writes = After<f64, D>;
@@ -222,8 +229,8 @@ impl<const D: usize> PairSum<D> for ControlSum {
     }
 }
 
-/// A grows by dt xi (G V/m) times the sum.
-struct Grow(f64);
+/// A grows by dt M V/m times the sum.
+struct Grow;
 
 impl<const D: usize> Update<D> for Grow {
     type Sum = Control<f64, D>;
@@ -232,7 +239,7 @@ impl<const D: usize> Update<D> for Grow {
 
     #[inline(always)]
     fn at<S: Real>(&self, sum: &Control<S, D>, a: &Growing<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
-        let stiffness = a.g * (a.volume / a.m) * S::of(self.0);
+        let stiffness = longitudinal(a.rest * a.c0 * a.c0, a.g) * (a.volume / a.m);
         Grown { shear: a.shear.plus(now.dt * stiffness, sum.g) }
     }
 }
@@ -289,7 +296,7 @@ impl<const D: usize> Update<D> for Settle {
     }
 }
 
-impl<const D: usize> Formulation<D> for Generalised {
+impl<L: ShearLaw, const D: usize> Formulation<D> for Generalised<L> {
     const FIELDS: &'static [Quantity] = &joined::<{ FIELDS.len() + 3 }>(
         FIELDS,
         &[Quantity::DeformationGradient, Quantity::DeformationRate, Quantity::NominalStress],
@@ -315,10 +322,18 @@ impl<const D: usize> Formulation<D> for Generalised {
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
         run.pairs(&RateSum, &Follow(self), now);
-        run.pairs(&ControlSum, &Grow(self.xi), now);
+        run.pairs(&ControlSum, &Grow, now);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {
-        state(run, place)
+        let word = |field, k| run.word(field, k, place);
+        let s = Tensor::<f64, D>::from_fn(|i, j| word(Quantity::ShearStress, i * D + j));
+        let carried = ShearTensor { s, axial: word(Quantity::AxialShearStress, 0) };
+        let rest = word(Quantity::RestDensity, 0);
+        let ratio = word(Quantity::Density, 0) / rest;
+        let stored = self.stress.energy(carried, ratio, word(Quantity::ShearModulus, 0));
+        let energy = stored * word(Quantity::Mass, 0) / rest + word(Quantity::ShearWork, 0);
+        let cauchy = self.stress.cauchy(carried, ratio);
+        super::state(run, place, (cauchy.s.lift(cauchy.axial), energy))
     }
 }

@@ -13,6 +13,7 @@ mod motion;
 mod nested;
 mod non_hourglass;
 mod pressure;
+mod shear_law;
 
 pub use accumulated::{Unwatched, Watch};
 pub use artificial_stress::ArtificialStress;
@@ -22,6 +23,7 @@ pub use laplacian::Laplacian;
 pub use low_dissipation::LowDissipation;
 pub use nested::Nested;
 pub use non_hourglass::NonHourglass;
+pub use shear_law::{NeoHookeanShear, ShearLaw};
 
 use super::State;
 use crate::field::Quantity;
@@ -86,9 +88,9 @@ pub struct Hypoelastic {
     pub plane: Plane,
 }
 
-/// Rate of the shear stress.
+/// A shear stress, or its rate.
 #[derive(Clone, Copy, Debug)]
-pub struct ShearRate<S, const D: usize> {
+pub struct ShearTensor<S, const D: usize> {
     /// In the plane.
     pub s: Tensor<S, D>,
     /// On the third axis (2D).
@@ -104,20 +106,20 @@ impl Hypoelastic {
         gradient: Tensor<S, D>,
         s: Tensor<S, D>,
         shear: S,
-    ) -> ShearRate<S, D> {
+    ) -> ShearTensor<S, D> {
         let spin = gradient.antisymmetric();
         let rate = self.of_strain(gradient.symmetric(), shear);
-        ShearRate { s: rate.s + spin.mul(s) - s.mul(spin), ..rate }
+        ShearTensor { s: rate.s + spin.mul(s) - s.mul(spin), ..rate }
     }
 
     /// 2G dev of a (rate of) strain. In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.
     #[inline(always)]
-    pub fn of_strain<S: Real, const D: usize>(&self, strain: Tensor<S, D>, shear: S) -> ShearRate<S, D> {
+    pub fn of_strain<S: Real, const D: usize>(&self, strain: Tensor<S, D>, shear: S) -> ShearTensor<S, D> {
         let d = self.plane.d(D);
         let mean = strain.trace() * S::of(-1.0 / d);
         let twice = shear + shear;
         let s = strain.plus_diagonal(mean).times(twice);
-        ShearRate { s, axial: if d == 2.0 { S::zero() } else { twice * mean } }
+        ShearTensor { s, axial: if d == 2.0 { S::zero() } else { twice * mean } }
     }
 }
 

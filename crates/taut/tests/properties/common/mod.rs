@@ -215,8 +215,13 @@ impl Setup {
     }
 
     /// For up to two bodies.
-    pub fn generalised(&self) -> updated::Generalised {
+    pub fn generalised(&self) -> updated::Generalised<updated::Hypoelastic> {
         updated::Generalised::new(updated::Hypoelastic { plane: self.plane }, 2)
+    }
+
+    /// The same of rubber.
+    pub fn generalised_rubber(&self) -> updated::Generalised<updated::NeoHookeanShear> {
+        updated::Generalised::new(updated::NeoHookeanShear { plane: self.plane }, 2)
     }
 
     /// A total Lagrangian body.
