@@ -16,7 +16,7 @@ use crate::run::Run;
 
 /// As [`ArtificialStress`], with B (UL Eq. 27) in the gradient of velocity that strains (UL Eq. 26) and in the stress that is handed to
 /// neighbours, (V_a/m_a) sum_b (s_a B_a + s_b B_b) grad W V_b. The one is the adjoint of the other, so that energy is kept; with B in
-/// the strain alone a plate gains it. Without B the layers at a surface see half of their strain, and plates swing too slowly by dp/H.
+/// the strain alone the stress would store more than the force has put in. Without B the layers at a surface see half of their strain, and plates swing too slowly by dp/H.
 /// Pressure and density go without, as in all forms of the paper.
 #[derive(Clone, Copy, Debug)]
 pub struct CorrectedArtificialStress(pub ArtificialStress);
