@@ -123,6 +123,7 @@ fn updated_form(case: &Case, body: &Body) -> UpdatedForm {
     match body.scheme.formulation {
         Formulation::UlNested => UpdatedForm::Nested,
         Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
+        Formulation::UlArtificialStressCorrected => UpdatedForm::CorrectedArtificialStress,
         Formulation::UlLaplacian => UpdatedForm::Laplacian,
         Formulation::UlGeneralised if rubber => UpdatedForm::GeneralisedNeoHookean,
         Formulation::UlGeneralised => UpdatedForm::Generalised,

@@ -24,6 +24,8 @@ pub enum Formulation {
     UlNested,
     /// Updated Lagrangian, the nested form with artificial stress.
     UlArtificialStress,
+    /// Updated Lagrangian, `UlArtificialStress` with corrected gradients.
+    UlArtificialStressCorrected,
     /// Updated Lagrangian, shear forces from the plain Laplacian of velocity.
     UlLaplacian,
     /// Updated Lagrangian, the nested form with an accumulated control of hourglass modes.
@@ -84,6 +86,11 @@ impl Words for Formulation {
             "updated Lagrangian, the nested form with artificial stress (Gray et al. 2001), which hourglasses too; material linear-elastic",
         ),
         (
+            "ul-artificial-stress-corrected",
+            Self::UlArtificialStressCorrected,
+            "updated Lagrangian, ul-artificial-stress with the correction matrix in strain and force, so that thin parts are not too soft; for comparison only; material linear-elastic",
+        ),
+        (
             "ul-laplacian",
             Self::UlLaplacian,
             "updated Lagrangian, shear forces by the plain Laplacian of velocity, which resists rotation; for comparison only; material linear-elastic",
@@ -111,10 +118,21 @@ impl Formulation {
             Self::UlNonHourglass
             | Self::UlNested
             | Self::UlArtificialStress
+            | Self::UlArtificialStressCorrected
             | Self::UlLaplacian
             | Self::UlGeneralised
             | Self::UlLowDissipation => Family::Updated,
         }
+    }
+
+    /// Whether it has artificial stress, which must not be frozen.
+    pub fn has_artificial_stress(self) -> bool {
+        matches!(self, Self::UlArtificialStress | Self::UlArtificialStressCorrected)
+    }
+
+    /// Updated Lagrangian with a nested stress and nothing against the modes that it is blind to.
+    pub fn is_updated_nested(self) -> bool {
+        self == Self::UlNested || self.has_artificial_stress()
     }
 }
 

@@ -26,6 +26,7 @@ fn models(formulation: Formulation) -> &'static [Model] {
         Formulation::UlNonHourglass
         | Formulation::UlNested
         | Formulation::UlArtificialStress
+        | Formulation::UlArtificialStressCorrected
         | Formulation::UlLowDissipation
         | Formulation::UlLaplacian
         | Formulation::SmallStrain => &[Model::LinearElastic],
@@ -105,7 +106,7 @@ pub(super) fn warnings(bodies: &[Body], materials: &[Material], plane: Option<Pl
 pub(super) fn frozen(bodies: &[Body], stepping: Place) -> Option<Diagnostic> {
     let frozen = |body: &&Body| {
         let dual = matches!(body.scheme.march, March::Updated { stepping: Stepping::Dual, .. });
-        dual && body.scheme.formulation == Formulation::UlArtificialStress
+        dual && body.scheme.formulation.has_artificial_stress()
     };
     let body = bodies.iter().find(frozen)?;
     let message = format!(
@@ -113,9 +114,10 @@ pub(super) fn frozen(bodies: &[Body], stepping: Place) -> Option<Diagnostic> {
          and particles that come near each other in between are pushed apart too late, or too far",
         body.name
     );
-    Some(Diagnostic::at(stepping, message).help(
-        "`stepping = \"single\"`, the default of ul-artificial-stress; colliding rings blow up with dual stepping",
-    ))
+    let form = body.scheme.formulation.name();
+    Some(Diagnostic::at(stepping, message).help(format!(
+        "`stepping = \"single\"`, the default of {form}; colliding rings blow up with dual stepping"
+    )))
 }
 
 /// Refuses planes that a formulation does not have.

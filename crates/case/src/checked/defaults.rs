@@ -35,10 +35,7 @@ pub(crate) fn cfl(formulation: Formulation) -> f64 {
 
 /// Dual where frozen neighbours do no harm (1.7 times faster); the nested forms tear when they are frozen.
 pub(crate) fn stepping(formulation: Formulation) -> Stepping {
-    match formulation {
-        Formulation::UlNested | Formulation::UlArtificialStress => Stepping::Single,
-        _ => Stepping::Dual,
-    }
+    if formulation.is_updated_nested() { Stepping::Single } else { Stepping::Dual }
 }
 
 /// Safe at any stretch. At rest it looks at the longitudinal wave, where the paper's rule looks at sqrt(K/rho0).
@@ -153,13 +150,14 @@ mod tests {
         {
             assert_eq!(said(key), value.to_string());
         }
-        let nested = [Formulation::UlNested, Formulation::UlArtificialStress];
-        let stepped = format!(
-            "{}; {} for {}",
-            word(stepping(updated)),
-            word(stepping(nested[0])),
-            nested.map(word).join(" and ")
-        );
+        let nested = [
+            Formulation::UlNested,
+            Formulation::UlArtificialStress,
+            Formulation::UlArtificialStressCorrected,
+        ];
+        let [first, second, third] = nested.map(word);
+        let (usual, other) = (word(stepping(updated)), word(stepping(nested[0])));
+        let stepped = format!("{usual}; {other} for {first}, {second} and {third}");
         assert!(nested.iter().all(|&form| stepping(form) == stepping(nested[0])));
         assert_eq!(said(&case::STEPPING), stepped);
     }

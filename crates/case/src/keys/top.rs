@@ -39,7 +39,7 @@ pub(crate) mod case {
     pub(crate) const STEPPING: Key = Key::new(
         "stepping",
         Kind::Choice(Stepping::choices),
-        Need::Default("dual; single for ul-nested and ul-artificial-stress"),
+        Need::Default("dual; single for ul-nested, ul-artificial-stress and ul-artificial-stress-corrected"),
         "How updated Lagrangian bodies renew their neighbours; total Lagrangian ones never do.",
     );
     pub(crate) const SPACING: Key = Key::new(

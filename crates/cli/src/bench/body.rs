@@ -129,6 +129,11 @@ fn counted<const D: usize>(form: Form) -> Operations {
             let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
             operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
         }
+        Form::Updated(UpdatedForm::CorrectedArtificialStress, _) => {
+            let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
+            let plain = updated::ArtificialStress::new(stress, kernel, DP);
+            operations::<D>(&updated::CorrectedArtificialStress(plain))
+        }
         Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
         Form::Updated(UpdatedForm::GeneralisedNeoHookean, _) => {
             let stress = updated::NeoHookeanShear { plane: Plane::Strain };

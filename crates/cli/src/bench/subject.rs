@@ -102,6 +102,7 @@ const fn updated(form: UpdatedForm) -> &'static str {
         UpdatedForm::UnwatchedNonHourglass => "ul-non-hourglass-unwatched",
         UpdatedForm::Nested => "ul-nested",
         UpdatedForm::ArtificialStress => "ul-artificial-stress",
+        UpdatedForm::CorrectedArtificialStress => "ul-artificial-stress-corrected",
         UpdatedForm::Laplacian => "ul-laplacian",
         UpdatedForm::LowDissipation => "ul-low-dissipation",
         UpdatedForm::Generalised => "ul-generalised",

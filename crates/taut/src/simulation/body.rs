@@ -6,8 +6,8 @@ use crate::formulation::Formulation;
 use crate::formulation::small_strain::{Adjoint, Bare, Literal, Normalisation, SmallStrain};
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{
-    self as updated_forms, ArtificialStress, Generalised, Hypoelastic, Laplacian, LowDissipation,
-    NeoHookeanShear, NonHourglass, ShearLaw, Unwatched,
+    self as updated_forms, ArtificialStress, CorrectedArtificialStress, Generalised, Hypoelastic, Laplacian,
+    LowDissipation, NeoHookeanShear, NonHourglass, ShearLaw, Unwatched,
 };
 use crate::integrator::{TotalOptions, UpdatedOptions};
 use crate::material::{
@@ -104,6 +104,8 @@ pub enum UpdatedForm {
     Nested,
     /// `ul-artificial-stress`.
     ArtificialStress,
+    /// `ul-artificial-stress-corrected`.
+    CorrectedArtificialStress,
     /// `ul-laplacian`.
     Laplacian,
     /// `ul-generalised`.
@@ -298,6 +300,10 @@ fn updated_of<const D: usize>(
         UpdatedForm::Nested => body.with(updated_forms::Nested { stress }),
         UpdatedForm::ArtificialStress => {
             body.with(ArtificialStress::new(stress, options.kernel, spacing(points)))
+        }
+        UpdatedForm::CorrectedArtificialStress => {
+            let plain = ArtificialStress::new(stress, options.kernel, spacing(points));
+            body.with(CorrectedArtificialStress(plain))
         }
     }
 }

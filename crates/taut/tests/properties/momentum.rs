@@ -92,6 +92,7 @@ fn angular_momentum_of_the_others_drifts_little() {
         (Form::NonHourglass, 0.055),
         (Form::UpdatedNested, 0.0075),
         (Form::ArtificialStress, 0.018),
+        (Form::CorrectedArtificialStress, 0.018),
         (Form::Generalised, 0.0075),
     ] {
         for stepping in [Stepping::Dual, Stepping::Single] {
@@ -126,6 +127,10 @@ fn colliding(form: Form) -> (Simulation, f64) {
         }
         Form::ArtificialStress => {
             Box::new(updated(&points, (setup.artificial_stress(2), &moduli), options, Cpu::new))
+        }
+        Form::CorrectedArtificialStress => {
+            let form = setup.corrected_artificial_stress(2);
+            Box::new(updated(&points, (form, &moduli), options, Cpu::new))
         }
         Form::Generalised => Box::new(updated(&points, (setup.generalised(), &moduli), options, Cpu::new)),
         Form::LowDissipation => {

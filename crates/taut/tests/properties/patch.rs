@@ -133,4 +133,5 @@ fn a_homogeneous_stress_is_in_balance_inside() {
     let setup = Setup::new(DP);
     stressed(setup.updated_nested());
     stressed(setup.artificial_stress(2));
+    stressed(setup.corrected_artificial_stress(2));
 }

@@ -105,5 +105,6 @@ fn the_deviator_stays_a_deviator() {
         deviator_stays_one(taut::formulation::updated::NonHourglass::new(stress(plane), 2), plane);
         let setup = Setup { plane, ..Setup::new(DP) };
         deviator_stays_one(setup.artificial_stress(2), plane);
+        deviator_stays_one(setup.corrected_artificial_stress(2), plane);
     }
 }

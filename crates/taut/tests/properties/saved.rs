@@ -70,6 +70,7 @@ where
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
         Form::ArtificialStress => updated(UpdatedForm::ArtificialStress),
+        Form::CorrectedArtificialStress => updated(UpdatedForm::CorrectedArtificialStress),
         Form::Laplacian => updated(UpdatedForm::Laplacian),
         Form::Generalised => updated(UpdatedForm::Generalised),
         Form::LowDissipation => updated(UpdatedForm::LowDissipation),

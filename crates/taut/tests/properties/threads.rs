@@ -93,6 +93,11 @@ fn artificial_stress_in_the_plane() {
 }
 
 #[test]
+fn corrected_artificial_stress_in_the_plane() {
+    updated(Setup::new(DP).corrected_artificial_stress(2));
+}
+
+#[test]
 fn generalised_in_the_plane() {
     updated(Setup::new(DP).generalised());
     updated(Setup::new(DP).generalised_rubber());

@@ -80,10 +80,7 @@ impl Facts {
 
     /// Whether the body is solved by a form that is blind to zigzag modes.
     pub fn is_nested(&self) -> bool {
-        matches!(
-            self.formulation,
-            Some(Formulation::TlNested | Formulation::UlNested | Formulation::UlArtificialStress)
-        )
+        self.formulation.is_some_and(|f| f == Formulation::TlNested || f.is_updated_nested())
     }
 
     /// Whether its neighbours are those of the undeformed body.

@@ -134,7 +134,7 @@ fn zigzag(_: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
         Some(Formulation::TlNested) => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::TlHourglassFree)])
         }
-        Some(Formulation::UlNested | Formulation::UlArtificialStress) => {
+        Some(form) if form.is_updated_nested() => {
             (" (a nested form is blind to them)", vec![tries::formulation(Formulation::UlNonHourglass)])
         }
         _ => ("", vec![tries::smaller_cfl(facts.cfl.0, facts.cfl.1)]),
@@ -151,8 +151,7 @@ fn torn(e: &Evidence<'_>, facts: &Facts) -> Option<Sign> {
     if !matches!(e.diverged.cause, Cause::Density | Cause::Lost) || facts.is_total() || facts.at_start {
         return None;
     }
-    let nested =
-        facts.formulation.filter(|f| matches!(f, Formulation::UlNested | Formulation::UlArtificialStress));
+    let nested = facts.formulation.filter(|f| f.is_updated_nested());
     let mut tries = match nested {
         Some(_) => vec![tries::formulation(Formulation::UlNonHourglass)],
         None => vec![],

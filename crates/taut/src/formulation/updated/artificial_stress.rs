@@ -8,7 +8,7 @@ use super::{FIELDS, Hypoelastic, joined, same_body};
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
-use crate::math::Real;
+use crate::math::{Real, Tensor, Vector};
 use crate::pass::{Now, Pair, PairSum, Update};
 use crate::run::Run;
 
@@ -33,6 +33,19 @@ impl ArtificialStress {
     pub fn new(stress: Hypoelastic, kernel: Kernel, spacing: f64) -> Self {
         Self { stress, strength: 0.3, kernel, unit: 1.0 / kernel.w(spacing) }
     }
+
+    /// Adds f_ab^4 r grad W V_b to `sum`, with r the R of both.
+    #[inline(always)]
+    pub(super) fn repel<S: Real, const D: usize, const M: u8>(
+        &self,
+        sum: &mut Vector<S, D>,
+        r: Tensor<S, D>,
+        ab: &Pair<S, D, M>,
+    ) {
+        let f = self.kernel.w(ab.x.norm_squared().sqrt()) * S::of(self.unit);
+        let squared = f * f;
+        ab.dot(sum, r.times(squared * squared));
+    }
 }
 
 record! {
@@ -45,7 +58,7 @@ record! {
 }
 
 /// R = -eps sum_k max(sigma_k, 0) n_k (x) n_k.
-struct Oppose(f64);
+pub struct Oppose(pub f64);
 
 impl<const D: usize> Update<D> for Oppose {
     type Sum = ();
@@ -79,9 +92,7 @@ impl<const D: usize> PairSum<D> for Momentum<'_> {
         push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
         let inside = same_body(a.body, b.body);
         ab.dot(&mut sum.f, (a.s + b.s).times(inside));
-        let f = self.0.kernel.w(ab.x.norm_squared().sqrt()) * S::of(self.0.unit);
-        let squared = f * f;
-        ab.dot(&mut sum.g, (a.r + b.r).times(squared * squared * inside));
+        self.0.repel(&mut sum.g, (a.r + b.r).times(inside), ab);
     }
 }
 

@@ -18,6 +18,8 @@ record! {
     Shifted { s: ShearStress, axial: AxialShearStress }
     /// A particle before.
     Before { density: Density, g: ShearModulus, s: ShearStress, axial: AxialShearStress }
+    /// A particle before, whose gradients are corrected.
+    Correctable { density: Density, g: ShearModulus, s: ShearStress, axial: AxialShearStress, b: Correction }
     /// A particle after.
     After {
         density: Density, rate: DensityRate, s: ShearStress, s_rate: ShearStressRate,
@@ -83,6 +85,22 @@ impl<const D: usize> Update<D> for Integrate {
             axial: half.mul_add(new.axial, a.axial),
             axial_rate: new.axial,
         }
+    }
+}
+
+/// The same with L corrected by B (UL Eq. 26).
+pub struct IntegrateCorrected(pub Hypoelastic);
+
+impl<const D: usize> Update<D> for IntegrateCorrected {
+    type Sum = Rates<f64, D>;
+    type Reads = Correctable<f64, D>;
+    type Writes = After<f64, D>;
+
+    #[inline(always)]
+    fn at<S: Real>(&self, sum: &Rates<S, D>, a: &Correctable<S, D>, now: &Now<S>) -> Of<Self::Writes, S, D> {
+        let corrected = Rates { l: sum.l.mul(a.b), ..*sum };
+        let before = Before { density: a.density, g: a.g, s: a.s, axial: a.axial };
+        Integrate(self.0).at(&corrected, &before, now)
     }
 }
 

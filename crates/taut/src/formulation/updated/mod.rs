@@ -3,6 +3,7 @@
 
 mod accumulated;
 mod artificial_stress;
+mod corrected;
 mod generalised;
 mod integrated;
 mod kick;
@@ -16,6 +17,7 @@ mod shear_law;
 
 pub use accumulated::{Unwatched, Watch};
 pub use artificial_stress::ArtificialStress;
+pub use corrected::CorrectedArtificialStress;
 pub use generalised::Generalised;
 pub use laplacian::Laplacian;
 pub use low_dissipation::LowDissipation;

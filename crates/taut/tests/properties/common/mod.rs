@@ -45,6 +45,8 @@ pub enum Form {
     UpdatedNested,
     /// `ul-artificial-stress`.
     ArtificialStress,
+    /// `ul-artificial-stress-corrected`.
+    CorrectedArtificialStress,
     /// `ul-laplacian`.
     Laplacian,
     /// `ul-generalised`.
@@ -56,7 +58,7 @@ pub enum Form {
 }
 
 /// All of them.
-pub const FORMS: [Form; 11] = [
+pub const FORMS: [Form; 12] = [
     Form::HourglassFree,
     Form::TotalNested,
     Form::Ganzenmueller,
@@ -64,6 +66,7 @@ pub const FORMS: [Form; 11] = [
     Form::NonHourglass,
     Form::UpdatedNested,
     Form::ArtificialStress,
+    Form::CorrectedArtificialStress,
     Form::Laplacian,
     Form::Generalised,
     Form::LowDissipation,
@@ -71,10 +74,11 @@ pub const FORMS: [Form; 11] = [
 ];
 
 /// The updated Lagrangian ones.
-pub const UPDATED: [Form; 7] = [
+pub const UPDATED: [Form; 8] = [
     Form::NonHourglass,
     Form::UpdatedNested,
     Form::ArtificialStress,
+    Form::CorrectedArtificialStress,
     Form::Laplacian,
     Form::Generalised,
     Form::LowDissipation,
@@ -82,13 +86,14 @@ pub const UPDATED: [Form; 7] = [
 ];
 
 /// Those that know large strains, so that turns are none and too fast is too fast.
-pub const FINITE: [Form; 10] = [
+pub const FINITE: [Form; 11] = [
     Form::HourglassFree,
     Form::TotalNested,
     Form::Ganzenmueller,
     Form::NonHourglass,
     Form::UpdatedNested,
     Form::ArtificialStress,
+    Form::CorrectedArtificialStress,
     Form::Laplacian,
     Form::Generalised,
     Form::LowDissipation,
@@ -192,6 +197,10 @@ impl Setup {
         updated::ArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
     }
 
+    pub fn corrected_artificial_stress(&self, dimension: usize) -> updated::CorrectedArtificialStress {
+        updated::CorrectedArtificialStress(self.artificial_stress(dimension))
+    }
+
     pub fn unwatched(&self, dimension: usize) -> updated::NonHourglass<updated::Unwatched> {
         updated::NonHourglass::new(updated::Unwatched, dimension)
     }
@@ -263,6 +272,9 @@ impl Setup {
             }
             Form::ArtificialStress => {
                 Box::new(simulation::updated(points, (self.artificial_stress(D), &all), u, run))
+            }
+            Form::CorrectedArtificialStress => {
+                Box::new(simulation::updated(points, (self.corrected_artificial_stress(D), &all), u, run))
             }
             Form::Generalised => Box::new(simulation::updated(points, (self.generalised(), &all), u, run)),
             Form::LowDissipation => {
