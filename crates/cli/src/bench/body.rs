@@ -131,8 +131,7 @@ fn counted<const D: usize>(form: Form) -> Operations {
         }
         Form::Updated(UpdatedForm::CorrectedArtificialStress, _) => {
             let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
-            let plain = updated::ArtificialStress::new(stress, kernel, DP);
-            operations::<D>(&updated::CorrectedArtificialStress(plain))
+            operations::<D>(&updated::CorrectedArtificialStress::new(stress, kernel, DP))
         }
         Form::Updated(UpdatedForm::Generalised, _) => operations::<D>(&updated::Generalised::new(stress, 1)),
         Form::Updated(UpdatedForm::GeneralisedNeoHookean, _) => {

@@ -302,8 +302,7 @@ fn updated_of<const D: usize>(
             body.with(ArtificialStress::new(stress, options.kernel, spacing(points)))
         }
         UpdatedForm::CorrectedArtificialStress => {
-            let plain = ArtificialStress::new(stress, options.kernel, spacing(points));
-            body.with(CorrectedArtificialStress(plain))
+            body.with(CorrectedArtificialStress::new(stress, options.kernel, spacing(points)))
         }
     }
 }

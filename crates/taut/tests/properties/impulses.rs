@@ -108,8 +108,8 @@ fn worst(mut simulation: Simulation) -> ((f64, f64), Totals) {
     for _ in 0..STEPS {
         match simulation.step() {
             Ok(()) => {}
-            // What pulls here tears the updated nested form, as it should; the books count until then.
-            Err(stopped) if stopped.cause == Cause::Lost => break,
+            // What pulls here tears the updated nested forms, as it should; the books count until then.
+            Err(stopped) if matches!(stopped.cause, Cause::Lost | Cause::Density) => break,
             Err(stopped) => panic!("{stopped}: {stopped:?}"),
         }
         let now = missing(&start, &simulation.totals());

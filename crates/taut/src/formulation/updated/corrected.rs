@@ -1,25 +1,38 @@
 //! The nested formulation with artificial stress and corrected gradients, `ul-artificial-stress-corrected`.
 
-use super::ArtificialStress;
-use super::artificial_stress::Oppose;
 use super::integrated::{IntegrateCorrected, RateSum, Shear, state};
 use super::kick::{ControlledKick, ControlledPush};
 use super::motion::{Drift, MomentSum};
 use super::pressure::{Pushing, push};
-use super::{FIELDS, joined, same_body};
+use super::repulsion::{Oppose, Repulsion};
+use super::{FIELDS, Hypoelastic, joined, same_body};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
+use crate::kernel::Kernel;
 use crate::math::Real;
 use crate::pass::{Now, Pair, PairSum, Update};
 use crate::run::Run;
 
-/// As [`ArtificialStress`], with B (UL Eq. 27) in the gradient of velocity that strains (UL Eq. 26) and in the stress that is handed to
+/// As `ul-artificial-stress`, with B (UL Eq. 27) in the gradient of velocity that strains (UL Eq. 26) and in the stress that is handed to
 /// neighbours, (V_a/m_a) sum_b (s_a B_a + s_b B_b) grad W V_b. The one is the adjoint of the other, so that energy is kept; with B in
 /// the strain alone the stress would store more than the force has put in. Without B the layers at a surface see half of their strain, and plates swing too slowly by dp/H.
 /// Pressure and density go without, as in all forms of the paper.
 #[derive(Clone, Copy, Debug)]
-pub struct CorrectedArtificialStress(pub ArtificialStress);
+pub struct CorrectedArtificialStress {
+    /// The shear stress.
+    pub stress: Hypoelastic,
+    /// The artificial stress.
+    pub repulsion: Repulsion,
+}
+
+impl CorrectedArtificialStress {
+    /// With the published numbers, for particles of this spacing (m).
+    #[must_use]
+    pub fn new(stress: Hypoelastic, kernel: Kernel, spacing: f64) -> Self {
+        Self { stress, repulsion: Repulsion::new(kernel, spacing) }
+    }
+}
 
 record! {
     /// A stress to be handed to neighbours.
@@ -45,7 +58,7 @@ impl<const D: usize> Update<D> for Hand {
 }
 
 /// The force sum.
-struct Momentum<'a>(&'a ArtificialStress);
+struct Momentum<'a>(&'a Repulsion);
 
 impl<const D: usize> PairSum<D> for Momentum<'_> {
     type Reads = Stressed<f64, D>;
@@ -64,7 +77,7 @@ impl<const D: usize> PairSum<D> for Momentum<'_> {
         push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
         let inside = same_body(a.body, b.body);
         ab.dot(&mut sum.f, (a.q + b.q).times(inside));
-        self.0.repel(&mut sum.g, (a.r + b.r).times(inside), ab);
+        self.0.push(&mut sum.g, (a.r + b.r).times(inside), ab);
     }
 }
 
@@ -79,13 +92,13 @@ impl<const D: usize> Formulation<D> for CorrectedArtificialStress {
     fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
         run.each(&Drift, now);
         run.each(&Shear, now);
-        run.each(&Oppose(self.0.strength), now);
+        run.each(&Oppose(self.repulsion.strength), now);
         run.each(&Hand, now);
-        run.pairs(&Momentum(&self.0), &ControlledKick, now);
+        run.pairs(&Momentum(&self.repulsion), &ControlledKick, now);
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        run.pairs(&RateSum, &IntegrateCorrected(self.0.stress), now);
+        run.pairs(&RateSum, &IntegrateCorrected(self.stress), now);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {

@@ -13,6 +13,7 @@ mod motion;
 mod nested;
 mod non_hourglass;
 mod pressure;
+mod repulsion;
 mod shear_law;
 
 pub use accumulated::{Unwatched, Watch};
@@ -23,6 +24,7 @@ pub use laplacian::Laplacian;
 pub use low_dissipation::LowDissipation;
 pub use nested::Nested;
 pub use non_hourglass::NonHourglass;
+pub use repulsion::Repulsion;
 pub use shear_law::{NeoHookeanShear, ShearLaw};
 
 use super::State;

@@ -199,7 +199,8 @@ impl Setup {
     }
 
     pub fn corrected_artificial_stress(&self, dimension: usize) -> updated::CorrectedArtificialStress {
-        updated::CorrectedArtificialStress(self.artificial_stress(dimension))
+        let stress = updated::Hypoelastic { plane: self.plane };
+        updated::CorrectedArtificialStress::new(stress, self.updated_kernel(dimension), self.dp)
     }
 
     pub fn unwatched(&self, dimension: usize) -> updated::NonHourglass<updated::Unwatched> {
