@@ -17,7 +17,8 @@ fn rings_are_read_in_si() {
     assert_eq!((case.plane, case.kernel), (Some(Plane::Papers), Kernel::WendlandC2));
     assert_eq!(case.spacing, 0.001);
     let c0 = (1e7f64 / (3.0 * (1.0 - 2.0 * 0.4)) / 1200.0).sqrt();
-    let march = March::Updated { stepping: Stepping::Dual, reference_speed: 0.1 * c0 };
+    let march =
+        March::Updated { stepping: Stepping::Dual, reference_speed: 0.1 * c0, artificial_stress: 0.3 };
     let scheme = Scheme { formulation: Formulation::UlNonHourglass, smoothing: 1.3, cfl: 0.4, march };
     assert_eq!(case.bodies[0].scheme, scheme);
     let ring = ShapeSpec::Ring { center: [-0.045, 0.0, 0.0], inner: 0.03, outer: 0.04 };
@@ -150,7 +151,7 @@ fn keys_of_the_other_family_stay_legal_when_the_command_line_chooses_the_formula
     };
     let own = PLATE.replace("material = \"soft\"", "material = \"soft\"\nformulation = \"tl-nested\"");
     let case = Case::parse("case.toml", &own, &updated).unwrap_or_else(|error| panic!("{error}"));
-    let march = March::Updated { stepping: Stepping::Single, reference_speed: 0.0 };
+    let march = March::Updated { stepping: Stepping::Single, reference_speed: 0.0, artificial_stress: 0.3 };
     assert_eq!((case.bodies[0].scheme.march, case.bodies[0].scheme.smoothing), (march, 1.3));
     assert!(parse(case.case_text_as_run()).is_ok());
 }

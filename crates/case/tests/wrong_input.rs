@@ -90,6 +90,7 @@ const ROWS: &[Row] = &[
         &["`reference_speed` belongs to updated"],
     ),
     (PLATE, "dimension = 2", "dimension = 2\n@alpha = 5", &["`alpha` belongs to tl-ganzenmueller"]),
+    (PLATE, "dimension = 2", "dimension = 2\n@artificial_stress = 1", &["belongs to ul-art"]),
     (
         RINGS,
         "dimension = 2",

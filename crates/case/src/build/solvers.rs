@@ -87,7 +87,7 @@ where
             let formed = (edge(normalisation), hooke(case, all[index]));
             Ok(small_strain_body(points, formed, options, numbers))
         }
-        March::Updated { stepping, reference_speed } => {
+        March::Updated { stepping, reference_speed, artificial_stress } => {
             let mine = group.bodies.iter().map(|&(i, _)| all[i].sound_speed());
             let options = UpdatedOptions {
                 kernel,
@@ -102,7 +102,7 @@ where
                 bulk_speed: mine.fold(0.0, f64::max),
                 shear_speed: 0.0,
             };
-            let form = updated_form(case, body);
+            let form = updated_form(case, body, artificial_stress);
             let stress = Hypoelastic { plane: plane(case) };
             let moduli = |body: u32| all[body as usize];
             Ok(updated_bodies(points, (form, stress, &moduli), options, numbers))
@@ -117,13 +117,13 @@ fn unfit(case: &Case, body: &Body) -> CaseError {
     case.error_at(body.place, message, None)
 }
 
-/// An updated Lagrangian formulation.
-fn updated_form(case: &Case, body: &Body) -> UpdatedForm {
+/// An updated Lagrangian formulation, with this strength of artificial stress if it has one.
+fn updated_form(case: &Case, body: &Body, strength: f64) -> UpdatedForm {
     let rubber = case.material_of(body).is_some_and(|material| material.model == Model::NeoHookean);
     match body.scheme.formulation {
         Formulation::UlNested => UpdatedForm::Nested,
-        Formulation::UlArtificialStress => UpdatedForm::ArtificialStress,
-        Formulation::UlArtificialStressCorrected => UpdatedForm::CorrectedArtificialStress,
+        Formulation::UlArtificialStress => UpdatedForm::ArtificialStress(strength),
+        Formulation::UlArtificialStressCorrected => UpdatedForm::CorrectedArtificialStress(strength),
         Formulation::UlLaplacian => UpdatedForm::Laplacian,
         Formulation::UlGeneralised if rubber => UpdatedForm::GeneralisedNeoHookean,
         Formulation::UlGeneralised => UpdatedForm::Generalised,

@@ -47,6 +47,9 @@ pub(crate) const REFERENCE_SPEED: f64 = 0.0;
 /// The strength of Ganzenmueller's control that tames the paper's cases.
 pub(crate) const ALPHA: f64 = 10.0;
 
+/// The artificial stress of Gray et al.
+pub(crate) const ARTIFICIAL_STRESS: f64 = 0.3;
+
 /// The damping of the paper.
 pub(crate) const KELVIN_VOIGT: f64 = 1.0;
 
@@ -136,6 +139,7 @@ mod tests {
         assert_eq!(said(&quasi_static::TOLERANCE), TOLERANCE.to_string());
         assert_eq!(said(&quasi_static::MAX_STEPS), MAX_STEPS.to_string());
         assert_eq!(said(&case::ALPHA), ALPHA.to_string());
+        assert_eq!(said(&case::ARTIFICIAL_STRESS), ARTIFICIAL_STRESS.to_string());
         assert_eq!(said(&case::KELVIN_VOIGT), KELVIN_VOIGT.to_string());
         assert_eq!(said(&case::CALIBRATION), word(CALIBRATION));
         assert_eq!(

@@ -28,6 +28,9 @@ pub(super) fn force(root: &mut Table, name: &str, sources: &mut Sources) {
     if formulation.is_some_and(|f| f != Formulation::TlGanzenmueller) {
         root.remove("alpha");
     }
+    if formulation.is_some_and(|f| !f.has_artificial_stress()) {
+        root.remove("artificial_stress");
+    }
     if formulation.is_some_and(|f| f != Formulation::TlHourglassFree) {
         root.remove("calibration");
     }

@@ -50,6 +50,8 @@ pub enum March {
         stepping: Stepping,
         /// Floor of the advection speed, m/s.
         reference_speed: f64,
+        /// Strength of artificial stress.
+        artificial_stress: f64,
     },
 }
 
@@ -67,6 +69,7 @@ pub(crate) struct Schemes {
     reference_speed: Option<(f64, Place)>,
     calibration: Option<(Calibration, Place)>,
     alpha: Option<(f64, Place)>,
+    artificial_stress: Option<(f64, Place)>,
     kelvin_voigt: Option<(f64, Place)>,
     shear_stress: Option<(bool, Place)>,
     normalisation: Option<(Normalisation, Place)>,
@@ -102,6 +105,9 @@ impl Schemes {
                 choice(n, case::CALIBRATION.name, Calibration::WORDS)
             }),
             alpha: optional(root.get(case::ALPHA.name), problems, |n| scope.of(n, &case::ALPHA)),
+            artificial_stress: optional(root.get(case::ARTIFICIAL_STRESS.name), problems, |n| {
+                scope.of(n, &case::ARTIFICIAL_STRESS)
+            }),
             kelvin_voigt: optional(root.get(case::KELVIN_VOIGT.name), problems, |n| {
                 scope.of(n, &case::KELVIN_VOIGT)
             }),
@@ -137,6 +143,7 @@ impl Schemes {
             Family::Updated => March::Updated {
                 stepping: self.stepping.map_or(defaults::stepping(formulation), |(stepping, _)| stepping),
                 reference_speed: self.reference_speed.map_or(defaults::REFERENCE_SPEED, |(speed, _)| speed),
+                artificial_stress: self.artificial_stress.map_or(defaults::ARTIFICIAL_STRESS, |(eps, _)| eps),
             },
         };
         Scheme {
@@ -162,6 +169,11 @@ impl Schemes {
             if let Some(place) = place.filter(|_| !used) {
                 problems.0.push(useless(key, formulation.name(), place));
             }
+        }
+        let pushed = bodies.iter().any(|body| body.scheme.formulation.has_artificial_stress());
+        if let Some((_, place)) = self.artificial_stress.filter(|_| !pushed) {
+            let owners = "ul-artificial-stress and ul-artificial-stress-corrected";
+            problems.0.push(useless("artificial_stress", owners, place));
         }
         let updated_only = [
             ("stepping", self.stepping.map(|(_, place)| place)),

@@ -72,6 +72,12 @@ pub(crate) mod case {
         Need::Default("10"),
         "Strength of the hourglass control of `tl-ganzenmueller`: a number to be tuned. Too little lets zigzag grow, too much makes bodies too stiff.",
     );
+    pub(crate) const ARTIFICIAL_STRESS: Key = Key::new(
+        "artificial_stress",
+        Kind::Number(Dimension::NUMBER, Range::NotNegative),
+        Need::Default("0.3"),
+        "Strength of the artificial stress of `ul-artificial-stress` and `ul-artificial-stress-corrected`, eps of Gray et al. (2001), who have 0.3.",
+    );
     pub(crate) const KELVIN_VOIGT: Key = Key::new(
         "kelvin_voigt",
         Kind::Number(Dimension::NUMBER, Range::NotNegative),
@@ -123,6 +129,7 @@ pub(crate) mod case {
             SMOOTHING,
             REFERENCE_SPEED,
             ALPHA,
+            ARTIFICIAL_STRESS,
             KELVIN_VOIGT,
             CALIBRATION,
             SHEAR_STRESS,

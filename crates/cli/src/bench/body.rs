@@ -125,11 +125,11 @@ fn counted<const D: usize>(form: Form) -> Operations {
             operations::<D>(&updated::NonHourglass::new(stress, D))
         }
         Form::Updated(UpdatedForm::Nested, _) => operations::<D>(&updated::Nested { stress }),
-        Form::Updated(UpdatedForm::ArtificialStress, _) => {
+        Form::Updated(UpdatedForm::ArtificialStress(_), _) => {
             let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
             operations::<D>(&updated::ArtificialStress::new(stress, kernel, DP))
         }
-        Form::Updated(UpdatedForm::CorrectedArtificialStress, _) => {
+        Form::Updated(UpdatedForm::CorrectedArtificialStress(_), _) => {
             let kernel = Kernel::new(Shape::WendlandC2, 1.3 * DP, D);
             operations::<D>(&updated::CorrectedArtificialStress::new(stress, kernel, DP))
         }

@@ -7,7 +7,7 @@ use crate::formulation::small_strain::{Adjoint, Bare, Literal, Normalisation, Sm
 use crate::formulation::total::{Ganzenmueller, HourglassFree, Nested};
 use crate::formulation::updated::{
     self as updated_forms, ArtificialStress, CorrectedArtificialStress, Generalised, Hypoelastic, Laplacian,
-    LowDissipation, NeoHookeanShear, NonHourglass, ShearLaw, Unwatched,
+    LowDissipation, NeoHookeanShear, NonHourglass, Repulsion, ShearLaw, Unwatched,
 };
 use crate::integrator::{TotalOptions, UpdatedOptions};
 use crate::material::{
@@ -96,16 +96,16 @@ pub enum Calibration {
 }
 
 /// An updated Lagrangian formulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum UpdatedForm {
     /// `ul-non-hourglass`.
     NonHourglass,
     /// `ul-nested`.
     Nested,
-    /// `ul-artificial-stress`.
-    ArtificialStress,
-    /// `ul-artificial-stress-corrected`.
-    CorrectedArtificialStress,
+    /// `ul-artificial-stress`, of this strength.
+    ArtificialStress(f64),
+    /// `ul-artificial-stress-corrected`, of this strength.
+    CorrectedArtificialStress(f64),
     /// `ul-laplacian`.
     Laplacian,
     /// `ul-generalised`.
@@ -298,11 +298,13 @@ fn updated_of<const D: usize>(
         UpdatedForm::Generalised => body.generalised(stress),
         UpdatedForm::GeneralisedNeoHookean => body.generalised(NeoHookeanShear { plane: stress.plane }),
         UpdatedForm::Nested => body.with(updated_forms::Nested { stress }),
-        UpdatedForm::ArtificialStress => {
-            body.with(ArtificialStress::new(stress, options.kernel, spacing(points)))
+        UpdatedForm::ArtificialStress(strength) => {
+            let repulsion = Repulsion::new(options.kernel, spacing(points)).of(strength);
+            body.with(ArtificialStress { stress, repulsion })
         }
-        UpdatedForm::CorrectedArtificialStress => {
-            body.with(CorrectedArtificialStress::new(stress, options.kernel, spacing(points)))
+        UpdatedForm::CorrectedArtificialStress(strength) => {
+            let repulsion = Repulsion::new(options.kernel, spacing(points)).of(strength);
+            body.with(CorrectedArtificialStress { stress, repulsion })
         }
     }
 }

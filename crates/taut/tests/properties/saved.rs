@@ -69,8 +69,8 @@ where
         }
         Form::NonHourglass => updated(UpdatedForm::NonHourglass),
         Form::UpdatedNested => updated(UpdatedForm::Nested),
-        Form::ArtificialStress => updated(UpdatedForm::ArtificialStress),
-        Form::CorrectedArtificialStress => updated(UpdatedForm::CorrectedArtificialStress),
+        Form::ArtificialStress => updated(UpdatedForm::ArtificialStress(0.3)),
+        Form::CorrectedArtificialStress => updated(UpdatedForm::CorrectedArtificialStress(0.3)),
         Form::Laplacian => updated(UpdatedForm::Laplacian),
         Form::Generalised => updated(UpdatedForm::Generalised),
         Form::LowDissipation => updated(UpdatedForm::LowDissipation),

@@ -24,6 +24,12 @@ impl Repulsion {
         Self { strength: 0.3, kernel, unit: 1.0 / kernel.w(spacing) }
     }
 
+    /// The same with this eps.
+    #[must_use]
+    pub const fn of(self, strength: f64) -> Self {
+        Self { strength, ..self }
+    }
+
     /// Adds f_ab^4 r grad W V_b to `sum`, with r the R of both.
     #[inline(always)]
     pub fn push<S: Real, const D: usize, const M: u8>(
