@@ -1,5 +1,6 @@
 //! What a form that does not keep angular momentum does to it: the moment of its pair forces, summed up over the looks.
 
+use super::audit::length;
 use output::summary::Couples as Summary;
 use taut::simulation::Totals;
 
@@ -31,8 +32,9 @@ impl Couples {
         for i in 0..3 {
             self.impulse[i] += half * (self.moment[i] + now.couple[i]);
         }
-        let rest = std::array::from_fn(|i| missing[i] - self.impulse[i]);
-        self.rest = self.rest.max(super::audit::length(rest));
+        let rest = length(std::array::from_fn(|i| missing[i] - self.impulse[i]));
+        // A value that is not a number stays: it is the worst.
+        self.rest = if rest > self.rest || rest.is_nan() { rest } else { self.rest };
         (self.time, self.moment, self.size) = (time, now.couple, now.couples);
     }
 
