@@ -69,6 +69,12 @@ impl Followed {
         }
     }
 
+    /// Whether its value is one that bodies have only when they were [looked at](taut::simulation::Simulation::look).
+    #[must_use]
+    pub fn is_looked_at(&self) -> bool {
+        self.quantity == Quantity::VonMises
+    }
+
     /// The largest von Mises stress of the particles, Pa.
     fn stress(&self, solver: &dyn Solver) -> f64 {
         let mut most = 0.0;

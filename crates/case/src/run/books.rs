@@ -20,7 +20,7 @@ pub struct Books<'a> {
     /// Where the results are.
     pub results: &'a ResultDir,
     /// The simulation, at its end.
-    pub simulation: &'a Simulation,
+    pub simulation: &'a mut Simulation,
     /// Particles across the thinnest part of each body.
     pub across: &'a [usize],
     /// What it computed with.
@@ -73,6 +73,7 @@ impl Books<'_> {
     pub fn diverged(mut self, diverged: Diverged) -> Result<RunError, RunError> {
         let results = self.results;
         let quasi_static = self.settle()?;
+        self.simulation.look();
         let Self { case, across, simulation, writer, .. } = &self;
         Evidence { case, across, simulation, writer, diverged: &diverged }.write(results)?;
         let summary = if self.start.is_none() { self.nothing() } else { self.summary() };
@@ -103,7 +104,7 @@ impl Books<'_> {
     }
 
     fn summary(self) -> Summary {
-        let (simulation, writer) = (self.simulation, &self.writer);
+        let (simulation, writer) = (&mut *self.simulation, &self.writer);
         let mut snapshot = Snapshot::default();
         let end = simulation.snapshot(&mut snapshot);
         let start = self.start.unwrap_or_default();

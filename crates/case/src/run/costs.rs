@@ -40,7 +40,7 @@ impl Costs {
     /// # Errors
     /// If the disorder cannot be measured, or a frame not be packed.
     pub fn measured(
-        (case, simulation, watch): (&Case, &Simulation, &mut dyn Watch),
+        (case, simulation, watch): (&Case, &mut Simulation, &mut dyn Watch),
         rates: &Rates,
     ) -> Result<Self, RunError> {
         let (mut snapshot, mut deformation) = (Snapshot::default(), Vec::new());

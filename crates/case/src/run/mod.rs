@@ -210,7 +210,7 @@ fn in_pool(
     let (Some(writer), Ok((start, schedule, ended))) = (writer, marched) else {
         return Err(RunError::Writer);
     };
-    let (wall, across, simulation) = (clock.wall(), &across, &simulation);
+    let (wall, across, simulation) = (clock.wall(), &across, &mut simulation);
     let books =
         Books { case, results, simulation, across, numbers, writer, start, schedule, wall, convergence };
     match ended {

@@ -107,7 +107,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// If the writer has stopped.
-    pub fn begin(&mut self, simulation: &Simulation) -> Result<(), WriterGone> {
+    pub fn begin(&mut self, simulation: &mut Simulation) -> Result<(), WriterGone> {
         self.start = Some(simulation.totals());
         self.after_step(simulation)
     }
@@ -116,14 +116,19 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// If the writer has stopped.
-    pub fn after_step(&mut self, simulation: &Simulation) -> Result<(), WriterGone> {
+    pub fn after_step(&mut self, simulation: &mut Simulation) -> Result<(), WriterGone> {
         let time = simulation.time();
         for i in 0..self.points.len() {
             if time >= self.due.probes[i] {
                 self.due.probes[i] += self.case.probes[i].interval;
                 let meter = &mut self.meters[0][i];
                 let value = match &self.points[i] {
-                    ProbePoint::Motion(followed) => Some(followed.value(simulation.solvers())),
+                    ProbePoint::Motion(followed) => {
+                        if followed.is_looked_at() {
+                            simulation.look();
+                        }
+                        Some(followed.value(simulation.solvers()))
+                    }
                     ProbePoint::Force(boundary) => meter.mean(simulation, *boundary).map(|r| r.linear),
                     ProbePoint::Moment(boundary) => meter.mean(simulation, *boundary).map(|r| r.angular),
                     ProbePoint::Contact(touched) => Some(touched.value(simulation)),
@@ -165,7 +170,7 @@ impl<'a> Recorder<'a> {
             .is_none_or(|(when, at)| step >= at + monitor.apart.0 || time >= when + monitor.apart.1)
     }
 
-    fn copy(&mut self, simulation: &Simulation, look: bool, frame: bool) {
+    fn copy(&mut self, simulation: &mut Simulation, look: bool, frame: bool) {
         let (time, step) = (simulation.time(), simulation.steps());
         let ending = time >= self.case.time.end;
         let measure = look && (ending || self.is_due(time, step));
@@ -186,7 +191,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// If the writer has stopped.
-    pub fn end(mut self, simulation: &Simulation) -> Result<(), WriterGone> {
+    pub fn end(mut self, simulation: &mut Simulation) -> Result<(), WriterGone> {
         if self.due.framed.is_none_or(|framed| simulation.time() > framed) {
             self.copy(simulation, true, true);
         }
@@ -197,7 +202,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// If the writer has stopped.
-    pub fn abandon(mut self, simulation: &Simulation) -> Result<(), WriterGone> {
+    pub fn abandon(mut self, simulation: &mut Simulation) -> Result<(), WriterGone> {
         if self.due.framed.is_none() {
             self.copy(simulation, false, true);
         }

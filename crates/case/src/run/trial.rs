@@ -120,7 +120,7 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let mut simulation = Simulation::new(solvers, drives).damped(damping).touching(contact);
     simulation.hold(grips);
     simulation.begin().map_err(stopped)?;
-    let (dt, first) = (simulation.dt(), looked_at(case, &simulation, watch.as_mut())?);
+    let (dt, first) = (simulation.dt(), looked_at(case, &mut simulation, watch.as_mut())?);
     let clock = Instant::now();
     let mut taken = 0;
     while (taken < TRIAL || clock.elapsed().as_secs_f64() < TRIED) && simulation.time() < case.time.end {
@@ -129,7 +129,7 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     }
     let per_step = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
     // A run holds two sheets, three frames for pictures, and one that is being written.
-    let (last, sheet) = (looked_at(case, &simulation, watch.as_mut())?, first.1);
+    let (last, sheet) = (looked_at(case, &mut simulation, watch.as_mut())?, first.1);
     // Threads hold back what they have freed: about a frame more, if there are several.
     let kept = vec![last.0.clone(); if threads > 1 { 3 } else { 2 }];
     let steps = steps(case, dt);
@@ -140,7 +140,7 @@ fn tried(case: &Case, built: Built, (threads, before): (usize, f64)) -> Result<E
     let neighbours = simulation.solvers().iter().map(|s| s.neighbours() * s.len() as f64).sum::<f64>()
         / particles.max(1) as f64;
     drop((sheet, last, kept, packed));
-    let costs = Costs::measured((case, &simulation, watch.as_mut()), &rates)?;
+    let costs = Costs::measured((case, &mut simulation, watch.as_mut()), &rates)?;
     Ok(Estimate {
         particles,
         neighbours,
@@ -182,7 +182,7 @@ fn frames(case: &Case, dt: f64) -> f64 {
 /// A frame of the present state, and the sheet that it came from.
 fn looked_at(
     case: &Case,
-    simulation: &Simulation,
+    simulation: &mut Simulation,
     watch: &mut dyn crate::build::Watch,
 ) -> Result<(Frame, Snapshot), RunError> {
     let mut snapshot = Snapshot::default();

@@ -42,6 +42,7 @@ macro_rules! glossary {
                     Self::ReferencePosition
                         | Self::Displacement
                         | Self::Position
+                        | Self::FollowedPosition
                         | Self::Density
                         | Self::DisplacementGradient
                         | Self::ShearAcceleration
@@ -99,6 +100,10 @@ glossary! {
     Displacement: AsVector, "u", "m";
     /// Current position (updated Lagrangian bodies carry it; for the others it is X + u).
     Position: AsVector, "x", "m";
+    /// Position at which a shear stress that only follows the motion was last integrated.
+    FollowedPosition: AsVector, "x_s", "m";
+    /// Displacement since then.
+    Travel: AsVector, "u_s", "m";
     /// Velocity.
     Velocity: AsVector, "v", "m/s";
     /// Acceleration by all forces but those of constraints.
@@ -152,6 +157,10 @@ glossary! {
     ShearStress: AsTensor, "s", "Pa";
     /// Rate of the shear stress.
     ShearStressRate: AsTensor, "ds/dt", "Pa/s";
+    /// Shear stress (in plane) that follows the motion, when it was last looked at.
+    SeenShearStress: AsTensor, "s", "Pa";
+    /// The same on the third axis.
+    SeenAxialShearStress: AsScalar, "s_zz", "Pa";
     /// Shear stress on the third axis in plane strain.
     AxialShearStress: AsScalar, "s_zz", "Pa";
     /// Rate of the shear stress on the third axis.

@@ -19,6 +19,9 @@ pub trait Formulation<const D: usize>: Send + Sync {
     /// The fields it carries.
     const FIELDS: &'static [Quantity];
 
+    /// Finishes what depends on the pair list, before a new one is made.
+    fn relisting(&self, _: &mut impl Run<D>) {}
+
     /// Prepares what depends on the pair list; called after every new list.
     fn relisted(&self, run: &mut impl Run<D>);
 
@@ -32,6 +35,9 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn metric(&self, run: &impl Run<D>, place: usize) -> f64 {
         run.word(Quantity::Mass, 0, place)
     }
+
+    /// Brings up to date what is only looked at. It must not change the motion, nor what later looks see.
+    fn look(&self, _: &mut impl Run<D>) {}
 
     /// Stress and energy of the particle stored at `place`, with `ahead` the time that fields are ahead of velocity.
     fn state(&self, run: &impl Run<D>, place: usize, ahead: f64) -> State;

@@ -166,7 +166,10 @@ pub trait Solver: Send + Sync {
         let work = self.scalar(Quantity::ExternalWork, place) - 0.5 * dt * force.dot(change);
         self.set_word(Quantity::ExternalWork, 0, (place, work));
     }
-    /// Stress and energy of the particle stored at `place`.
+    /// Brings up to date what is only looked at, such as a stress that follows the motion and does not act back.
+    fn look(&mut self) {}
+
+    /// Stress and energy of the particle stored at `place`; what is only looked at is that of the last [`Solver::look`].
     fn state(&self, place: usize) -> State;
     /// Shows the particles of these ids, in their order: one virtual call for all of them.
     fn show(&self, ids: Range<usize>, to: &mut dyn FnMut(&Seen)) {

@@ -77,7 +77,8 @@ impl<const D: usize> Run<D> for Tally<D> {
     fn pairs<P: PairSum<D>, U: Update<D, Sum = P::Adds>>(&mut self, sum: &P, then: &U, now: Now<f64>) {
         let (a, now) = (P::Reads::read(&Ones), now.cast::<Counted>());
         let ones = Vector([Counted::one(); D]);
-        let ab = Pair::<Counted, D, ALL_WEIGHTS> { grad_w: ones, w: Counted::one(), e: ones, x: ones };
+        let one = Counted::one();
+        let ab = Pair::<Counted, D, ALL_WEIGHTS> { grad_w: ones, w: one, e: ones, x: ones, over_r: one };
         let mut total = P::Adds::nought();
         self.done.sweeps += 1;
         self.done.pair += Counted::during(|| sum.add(&mut total, (&a, &a), &ab, &now));

@@ -20,6 +20,8 @@ pub struct Pair<S, const D: usize, const M: u8> {
     pub e: Vector<S, D>,
     /// x_a - x_b in the configuration of the list, m; not masked.
     pub x: Vector<S, D>,
+    /// 1/r, m^-1; not masked, and zero if no term uses a direction.
+    pub over_r: S,
 }
 
 impl<S: Real, const D: usize, const M: u8> Pair<S, D, M> {
@@ -51,23 +53,17 @@ impl<S: Real, const D: usize, const M: u8> Pair<S, D, M> {
         }
     }
 
-    /// `sum += s grad W`.
+    /// `sum += s grad W`, as `s w x_ab`: by one product instead of three.
     #[inline(always)]
     pub fn gradient(&self, sum: &mut Vector<S, D>, s: S) {
-        for j in 0..D {
-            if Self::has(j) {
-                sum.0[j] = s.mul_add(self.grad_w[j], sum.0[j]);
-            }
-        }
+        self.along(sum, self.x, s);
     }
 
-    /// `sum += v . grad W`.
+    /// `sum += v . grad W`, as `(v . x_ab) w`: who needs `v . x_ab` or `v . e` elsewhere has it only once.
     #[inline(always)]
     pub fn divergence(&self, sum: &mut S, v: Vector<S, D>) {
-        for j in 0..D {
-            if Self::has(j) {
-                *sum = v[j].mul_add(self.grad_w[j], *sum);
-            }
+        if Self::has(3) {
+            *sum = v.dot(self.x).mul_add(self.w, *sum);
         }
     }
 

@@ -75,9 +75,9 @@ impl<const D: usize> Run<D> for Serial<D> {
                 let r = x_ab.norm_squared().sqrt();
                 let slope = how.kernel.dw(r) * p.column(Quantity::Volume, 0)[b as usize];
                 // Particles on top of each other have no direction and no force.
-                let e: Vector<f64, D> = x_ab.times(if r > 0.0 { 1.0 / r } else { 0.0 });
-                let w = if r > 0.0 { slope / r } else { 0.0 };
-                self.pairs.push(Pair { grad_w: e.times(slope), w, e, x: x_ab });
+                let over_r = if r > 0.0 { 1.0 / r } else { 0.0 };
+                let e: Vector<f64, D> = x_ab.times(over_r);
+                self.pairs.push(Pair { grad_w: e.times(slope), w: slope * over_r, e, x: x_ab, over_r });
             }
         }
         Ok(())

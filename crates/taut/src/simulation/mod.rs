@@ -253,6 +253,11 @@ impl Simulation {
         }
     }
 
+    /// Brings up to date what is only looked at.
+    pub fn look(&mut self) {
+        self.solvers.iter_mut().for_each(|solver| solver.look());
+    }
+
     /// What bodies do to each other, if they touch.
     #[must_use]
     pub fn contact(&self) -> Option<&Contact> {

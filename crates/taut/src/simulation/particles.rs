@@ -101,6 +101,9 @@ pub fn updated<const D: usize, F: Formulation<D>, R: Run<D>>(
     for (i, point) in points.iter().enumerate() {
         let m = moduli(point.body);
         p.set_vector(Quantity::Position, i, point.x);
+        if p.has(Quantity::FollowedPosition) {
+            p.set_vector(Quantity::FollowedPosition, i, point.x);
+        }
         p.column_mut(Quantity::Density, 0)[i] = m.density;
         p.column_mut(Quantity::RestDensity, 0)[i] = m.density;
         p.column_mut(Quantity::SoundSpeed, 0)[i] = m.sound_speed();

@@ -194,7 +194,8 @@ impl Simulation {
 
     /// Fills `snapshot` with the present state, and adds it up. Ids of the bodies of later solvers follow those of
     /// earlier ones.
-    pub fn snapshot(&self, snapshot: &mut Snapshot) -> Totals {
+    pub fn snapshot(&mut self, snapshot: &mut Snapshot) -> Totals {
+        self.look();
         snapshot.resize(self.len());
         snapshot.time = self.time;
         let mut totals = Totals { impulse: self.audit.total(), ..Totals::default() };

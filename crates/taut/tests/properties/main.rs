@@ -9,6 +9,7 @@ mod contact;
 mod damping;
 mod divergence;
 mod energy;
+mod followed;
 mod impulses;
 mod lanes;
 mod moduli;

@@ -12,7 +12,7 @@ use taut::simulation::Solver;
 const DP: f64 = 0.002;
 const N: [usize; 2] = [13, 12];
 
-/// Stress after a small confined compression e along the first axis, by one second of the first rates: (sigma_xx, sigma_yy,
+/// Stress after a small confined compression e along the first axis, by one second of the first rates, or of the first motion where stress follows that: (sigma_xx, sigma_yy,
 /// sigma_zz) of an inner particle in units of e, and the share of the true compression that its density rate found.
 fn confined<F: Formulation<2> + Copy>(form: F, plane: Plane) -> ([f64; 3], f64) {
     let setup = Setup { plane, ..Setup::new(DP) };
@@ -25,12 +25,14 @@ fn confined<F: Formulation<2> + Copy>(form: F, plane: Plane) -> ([f64; 3], f64) 
         (Quantity::ShearStress, Quantity::ShearStressRate, 4),
         (Quantity::AxialShearStress, Quantity::AxialShearStressRate, 1),
         (Quantity::Density, Quantity::DensityRate, 1),
+        (Quantity::Position, Quantity::Velocity, 2),
     ] {
-        for k in 0..words {
+        for k in 0..if p.has(rate) { words } else { 0 } {
             let rate = p.column(rate, k).to_vec();
             p.column_mut(field, k).iter_mut().zip(rate).for_each(|(x, r)| *x += r);
         }
     }
+    body.look();
     let p = body.run().particles();
     let inner = |&i: &usize| deep(p.vector_at(Quantity::ReferencePosition, i), N, (DP, 3));
     let i = (0..p.len()).find(inner).expect("a particle inside");
@@ -81,6 +83,7 @@ fn deviator_stays_one<F: Formulation<2> + Copy>(form: F, plane: Plane) {
     stir(&mut points, 0.02 * setup.moduli.sound_speed(), 10.0 * DP);
     let mut body = setup.updated(form, &points);
     Clock::start(&mut body).expect("finite").steps(&mut body, 60);
+    form.relisting(body.run_mut());
     let p = body.run().particles();
     let (mut most, mut axial, mut trace) = (0.0f64, 0.0f64, 0.0f64);
     for i in 0..p.len() {

@@ -146,7 +146,7 @@ fn every_mode_of_a_block_in_space() {
     blind_and_restoring([10, 10, 10], &modes, ROUNDING);
 }
 
-/// Velocity alternates in an updated Lagrangian body: (largest rates inside of density, of shear stress), and the shear
+/// Velocity alternates in an updated Lagrangian body: (largest rates inside of density, of shear stress where it is integrated), and the shear
 /// acceleration gained in one second, per velocity, against the mode.
 fn flowing<F: Formulation<2> + Copy>(form: F, axes: [bool; 2]) -> (f64, f64, Vec<f64>) {
     let (setup, n) = (Setup::new(DP), [13, 12]);
@@ -160,9 +160,9 @@ fn flowing<F: Formulation<2> + Copy>(form: F, axes: [bool; 2]) -> (f64, f64, Vec
         (0..p.len()).filter(|&i| deep(p.vector_at(Quantity::ReferencePosition, i), n, (DP, 3))).collect();
     let most = |value: &dyn Fn(usize) -> f64| inside.iter().map(|&i| value(i)).fold(0.0, f64::max);
     let density = most(&|i| p.column(Quantity::DensityRate, 0)[i].abs() * DP / setup.moduli.density);
-    let stress = most(&|i| {
-        crate::common::size(crate::common::tensor(p, Quantity::ShearStressRate, i)) * DP / setup.moduli.shear
-    });
+    let rate = |i| crate::common::size(crate::common::tensor(p, Quantity::ShearStressRate, i));
+    let integrated = p.has(Quantity::ShearStressRate);
+    let stress = most(&|i| if integrated { rate(i) * DP / setup.moduli.shear } else { 0.0 });
     let gained = |&i: &usize| {
         let velocity = p.vector_at(Quantity::Velocity, i);
         p.vector_at(Quantity::ShearAcceleration, i).dot(velocity) / velocity.norm_squared()

@@ -1,5 +1,6 @@
 //! The generalised non-hourglass formulation, `ul-generalised` (Zhang, Wu, Lourenco and Hu 2025), for elastic solids.
 
+use super::accumulated::{AlongPairs, HalfLaplacian};
 use super::integrated::Rates;
 use super::kick::{Kick, Push};
 use super::motion::{Drift, MomentSum};
@@ -169,7 +170,7 @@ struct RateSum;
 impl<const D: usize> PairSum<D> for RateSum {
     type Reads = Flow<f64, D>;
     type Adds = Rates<f64, D>;
-    const DIRECTED: bool = true;
+    const DIRECTED: bool = false;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(
@@ -180,7 +181,7 @@ impl<const D: usize> PairSum<D> for RateSum {
         _: &Now<S>,
     ) {
         let (v, inside) = (a.v - b.v, same_body(a.body, b.body));
-        let approach = S::select(v.dot(ab.e).lt(S::zero()), S::one(), S::zero());
+        let approach = S::select(v.dot(ab.x).lt(S::zero()), S::one(), S::zero());
         let met = S::select(S::zero().lt(a.p + b.p), S::one(), approach);
         ab.divergence(&mut sum.compression, v.times((S::one() - inside) * met));
         ab.outer(&mut sum.l, v.times(-inside));
@@ -225,7 +226,7 @@ impl<const D: usize> PairSum<D> for ControlSum {
         _: &Now<S>,
     ) {
         let untold = (a.v - b.v).plus(S::of(-0.5), (a.l + b.l).mul_vector(ab.x));
-        ab.along(&mut sum.g, ab.e, untold.dot(ab.e) * same_body(a.body, b.body));
+        AlongPairs::add(&mut sum.g, (untold, same_body(a.body, b.body)), ab);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The form with the plain Laplacian of velocity, `ul-laplacian` (UL Eq. 18, Fig. 7).
 
-use super::accumulated::{HalfLaplacian, Momentum, Watch};
+use super::accumulated::{HalfLaplacian, Integrate, Momentum, RateSum};
+use super::followed::Watch;
 use super::kick::Kick;
 use super::motion::Drift;
 use crate::field::Quantity;
@@ -33,15 +34,19 @@ impl HalfLaplacian for Whole {
     #[inline(always)]
     fn add<S: Real, const D: usize, const M: u8>(
         sum: &mut Vector<S, D>,
-        v: Vector<S, D>,
+        (v, inside): (Vector<S, D>, S),
         ab: &Pair<S, D, M>,
     ) {
-        ab.along(sum, v, S::one());
+        ab.along(sum, v, inside);
     }
 }
 
 impl<W: Watch, const D: usize> Formulation<D> for Laplacian<W> {
     const FIELDS: &'static [Quantity] = W::FIELDS;
+
+    fn relisting(&self, run: &mut impl Run<D>) {
+        self.stress.relisting(run);
+    }
 
     fn relisted(&self, run: &mut impl Run<D>) {
         self.stress.relisted(run);
@@ -53,7 +58,11 @@ impl<W: Watch, const D: usize> Formulation<D> for Laplacian<W> {
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        self.stress.rates::<Whole, D>(2.0, run, now);
+        run.pairs(&RateSum::<Whole>::NEW, &Integrate(2.0), now);
+    }
+
+    fn look(&self, run: &mut impl Run<D>) {
+        self.stress.look(run);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {

@@ -1,10 +1,10 @@
 //! The non-hourglass form with the Riemann solver that its paper cites, `ul-low-dissipation` (Zhang, Hu and Adams 2017).
 
-use super::accumulated::{Watched, Watching};
+use super::accumulated::{AlongPairs, HalfLaplacian, Integrate, Rates};
+use super::followed::{FOLLOWED, Watch};
 use super::kick::{Kick, Push};
-use super::motion::{Drift, MomentSum};
-use super::{FIELDS, Hypoelastic, same_body};
-use crate::correction::Invert;
+use super::motion::Drift;
+use super::{Hypoelastic, same_body};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::material::Moduli;
@@ -86,13 +86,13 @@ struct RateSum;
 
 impl<const D: usize> PairSum<D> for RateSum {
     type Reads = Flow<f64, D>;
-    type Adds = Watched<f64, D>;
+    type Adds = Rates<f64, D>;
     const DIRECTED: bool = true;
 
     #[inline(always)]
     fn add<S: Real, const M: u8>(
         &self,
-        sum: &mut Watched<S, D>,
+        sum: &mut Rates<S, D>,
         (a, b): (&Flow<S, D>, &Flow<S, D>),
         ab: &Pair<S, D, M>,
         _: &Now<S>,
@@ -100,17 +100,19 @@ impl<const D: usize> PairSum<D> for RateSum {
         let v = a.v - b.v;
         let jump = (a.p - b.p) * S::of(2.0) / (a.z + b.z);
         ab.divergence(&mut sum.compression, v.plus(jump, ab.e));
-        let inside = v.times(same_body(a.body, b.body));
-        ab.along(&mut sum.shear, ab.e, inside.dot(ab.e));
-        ab.outer(&mut sum.l, -inside);
+        AlongPairs::add(&mut sum.shear, (v, same_body(a.body, b.body)), ab);
     }
 }
 
 impl<const D: usize> Formulation<D> for LowDissipation {
-    const FIELDS: &'static [Quantity] = FIELDS;
+    const FIELDS: &'static [Quantity] = FOLLOWED;
+
+    fn relisting(&self, run: &mut impl Run<D>) {
+        self.stress.relisting(run);
+    }
 
     fn relisted(&self, run: &mut impl Run<D>) {
-        run.pairs(&MomentSum, &Invert, Now { t: 0.0, dt: 0.0 });
+        self.stress.relisted(run);
     }
 
     fn accelerate(&self, run: &mut impl Run<D>, now: Now<f64>) {
@@ -119,10 +121,14 @@ impl<const D: usize> Formulation<D> for LowDissipation {
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        run.pairs(&RateSum, &Watching(self.stress, 2.0 * self.zeta), now);
+        run.pairs(&RateSum, &Integrate(2.0 * self.zeta), now);
+    }
+
+    fn look(&self, run: &mut impl Run<D>) {
+        self.stress.look(run);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {
-        super::state(run, place, (super::shear_stress(run, place), run.word(Quantity::ShearWork, 0, place)))
+        super::state(run, place, (Hypoelastic::seen(run, place), run.word(Quantity::ShearWork, 0, place)))
     }
 }

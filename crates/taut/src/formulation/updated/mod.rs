@@ -4,6 +4,7 @@
 mod accumulated;
 mod artificial_stress;
 mod corrected;
+mod followed;
 mod generalised;
 mod integrated;
 mod kick;
@@ -16,9 +17,9 @@ mod pressure;
 mod repulsion;
 mod shear_law;
 
-pub use accumulated::{Unwatched, Watch};
 pub use artificial_stress::ArtificialStress;
 pub use corrected::CorrectedArtificialStress;
+pub use followed::{Unwatched, Watch};
 pub use generalised::Generalised;
 pub use laplacian::Laplacian;
 pub use low_dissipation::LowDissipation;
@@ -112,6 +113,22 @@ impl Hypoelastic {
         let spin = gradient.antisymmetric();
         let rate = self.of_strain(gradient.symmetric(), shear);
         ShearTensor { s: rate.s + spin.mul(s) - s.mul(spin), ..rate }
+    }
+
+    /// s after a displacement of gradient `h`, as [`Self::rate`] makes it of a steady one, to second order (Hughes and Winget 1980): half of the increment
+    /// 2G dev sym h, then the rotation by antisym h, then the other half. A rotation makes no stress, however large.
+    #[inline(always)]
+    pub fn after<S: Real, const D: usize>(
+        &self,
+        h: Tensor<S, D>,
+        before: ShearTensor<S, D>,
+        shear: S,
+    ) -> ShearTensor<S, D> {
+        let half = S::of(0.5);
+        let more = self.of_strain(h.symmetric(), shear);
+        let turn = h.antisymmetric().times(half).rotation();
+        let turned = turn.mul(before.s.plus(half, more.s)).mul(turn.transpose());
+        ShearTensor { s: turned.plus(half, more.s), axial: before.axial + more.axial }
     }
 
     /// 2G dev of a (rate of) strain. In plane strain the third axis carries the rest of the deviator; in the papers' plane it has none.

@@ -1,13 +1,13 @@
 //! The essentially non-hourglass formulation, `ul-non-hourglass` (UL section 4).
 
-use super::accumulated::{HalfLaplacian, Momentum, Watch};
+use super::accumulated::{AlongPairs, Integrate, Momentum, RateSum};
+use super::followed::Watch;
 use super::kick::Kick;
 use super::motion::Drift;
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::material::Moduli;
-use crate::math::{Real, Vector};
-use crate::pass::{Now, Pair};
+use crate::pass::Now;
 use crate::run::Run;
 
 /// dv/dt = pressure + A with dA/dt = 2 zeta (G/rho) sum_b (e.v_ab / r) grad W V_b inside the body (UL Eqs. 19, 20): the shear
@@ -37,22 +37,12 @@ impl<W> NonHourglass<W> {
     }
 }
 
-/// sum_b (e.v_ab / r) grad W V_b (UL Eq. 19): along the line of the pair, so that a spin makes nothing of it.
-struct AlongPairs;
-
-impl HalfLaplacian for AlongPairs {
-    #[inline(always)]
-    fn add<S: Real, const D: usize, const M: u8>(
-        sum: &mut Vector<S, D>,
-        v: Vector<S, D>,
-        ab: &Pair<S, D, M>,
-    ) {
-        ab.along(sum, ab.e, v.dot(ab.e));
-    }
-}
-
 impl<W: Watch, const D: usize> Formulation<D> for NonHourglass<W> {
     const FIELDS: &'static [Quantity] = W::FIELDS;
+
+    fn relisting(&self, run: &mut impl Run<D>) {
+        self.stress.relisting(run);
+    }
 
     fn relisted(&self, run: &mut impl Run<D>) {
         self.stress.relisted(run);
@@ -64,7 +54,11 @@ impl<W: Watch, const D: usize> Formulation<D> for NonHourglass<W> {
     }
 
     fn rates(&self, run: &mut impl Run<D>, now: Now<f64>) {
-        self.stress.rates::<AlongPairs, D>(2.0 * self.zeta, run, now);
+        run.pairs(&RateSum::<AlongPairs>::NEW, &Integrate(2.0 * self.zeta), now);
+    }
+
+    fn look(&self, run: &mut impl Run<D>) {
+        self.stress.look(run);
     }
 
     fn state(&self, run: &impl Run<D>, place: usize, _: f64) -> State {

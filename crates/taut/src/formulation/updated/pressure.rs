@@ -24,7 +24,8 @@ pub fn damp<S: Real, const D: usize, const M: u8>(
 ) {
     // A list is filled up with pairs of a particle with itself, of weight 0.
     let per_square = S::one() / x.norm_squared().max(S::of(1e-30));
-    let approach = z * v.dot(x.plus(-half, v)) * ab.x.dot(ab.e) * per_square;
+    let length = ab.x.norm_squared() * ab.over_r;
+    let approach = z * v.dot(x.plus(-half, v)) * length * per_square;
     let mut pushed = Vector::zero();
     ab.along(&mut pushed, x, approach);
     *force = *force + pushed;
@@ -43,7 +44,9 @@ pub fn push<S: Real, const D: usize, const M: u8>(
     ab: &Pair<S, D, M>,
 ) {
     let v = a.v - b.v;
-    let approach = v.dot(ab.e) * (a.z + b.z) * S::of(0.5);
+    // (v_a - v_b).e, from a product that the last line has too.
+    let opening = v.dot(ab.x) * ab.over_r;
+    let approach = opening * ((a.z + b.z) * S::of(0.5));
     ab.gradient(force, approach - (a.p + b.p));
     let mut rate = S::zero();
     ab.divergence(&mut rate, v);

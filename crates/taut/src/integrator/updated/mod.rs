@@ -30,6 +30,8 @@ pub struct Updated<const D: usize, F, R> {
     /// Time left until the configuration is made anew.
     left: f64,
     rebuilds: u64,
+    /// Whether what is only looked at is up to date, or cannot be: for want of a list.
+    looked: bool,
     /// Whether every particle had neighbours enough in the first list.
     sociable: bool,
     order: Vec<u32>,
@@ -55,6 +57,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
             limits: Limits::default(),
             left: 0.0,
             rebuilds: 0,
+            looked: true,
             sociable: false,
             order: Vec::new(),
             listed: std::array::from_fn(|_| Vec::new()),
@@ -69,6 +72,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
 
     /// The run, to change fields from outside.
     pub fn run_mut(&mut self) -> &mut R {
+        self.looked = self.rebuilds == 0;
         &mut self.run
     }
 
@@ -111,6 +115,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
         }
         place(&mut self.run, &self.present);
         if listed.is_err() {
+            self.looked = true;
             self.diagnose()?;
             return Err(Diverged::unlisted());
         }
@@ -127,6 +132,10 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Updated<D, F, R> {
     }
 
     fn rebuild(&mut self) -> Result<(), Diverged> {
+        // Nothing has followed the motion before the first list.
+        if self.rebuilds > 0 {
+            self.formulation.relisting(&mut self.run);
+        }
         if self.rebuilds % LISTS_PER_SORT == LISTS_PER_SORT - 1 {
             self.sort();
         }
@@ -241,6 +250,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         self.check()?;
         self.rebuild()?;
         self.formulation.rates(&mut self.run, Now { t: 0.0, dt: 0.0 });
+        self.looked = false;
         Ok(())
     }
 
@@ -284,6 +294,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         }
         self.formulation.accelerate(&mut self.run, now);
         self.formulation.rates(&mut self.run, now);
+        self.looked = false;
         self.left -= now.dt;
         self.check()
     }
@@ -312,6 +323,7 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         let [left, rebuilds, limits @ ..] = shelf.numbers::<5>("integrator")?;
         let rebuilds = shelf.count("integrator", rebuilds)?;
         (self.left, self.rebuilds, self.limits) = (left, rebuilds, Limits::restored(limits));
+        self.looked = false;
         Ok(())
     }
 
@@ -360,6 +372,12 @@ impl<const D: usize, F: Formulation<D>, R: Run<D>> Solver for Updated<D, F, R> {
         self.set_word(Quantity::ExternalWork, 0, (place, external));
         let shear = self.scalar(Quantity::ShearWork, place) + stored;
         self.set_word(Quantity::ShearWork, 0, (place, shear));
+    }
+
+    fn look(&mut self) {
+        if !std::mem::replace(&mut self.looked, true) {
+            self.formulation.look(&mut self.run);
+        }
     }
 
     fn state(&self, place: usize) -> State {

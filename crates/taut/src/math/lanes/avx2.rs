@@ -1,6 +1,7 @@
 //! Lanes of AVX2 with fused multiply-add. Reached only behind [`available`], through a function that carries
 //! `#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
+use super::fine::Fine;
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
 use std::arch::x86_64::*;
@@ -252,18 +253,18 @@ impl Lanes for F64x4 {
         unsafe { _mm256_movemask_pd(mask) as u32 }
     }
     #[inline(always)]
-    fn steps_from(self, which: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
+        let fine = Fine::of(step);
         // SAFETY: AVX2 is there (see module).
         unsafe {
-            let all = _mm256_castpd_ps(self.0);
-            let (low, high) = (_mm256_castps256_ps128(all), _mm256_extractf128_ps::<1>(all));
-            let theirs = if which == 0 {
-                _mm_shuffle_ps::<0b10_00_10_00>(low, high)
-            } else {
-                _mm_shuffle_ps::<0b11_01_11_01>(low, high)
+            let own = _mm256_set1_epi64x((own ^ Fine::MIDDLE) as i64);
+            let apart = _mm256_sub_epi32(own, _mm256_castpd_si256(self.0));
+            let exponent = _mm256_set1_epi64x(fine.exponent as i64);
+            let number = |bits| {
+                let shifted = _mm256_castsi256_pd(_mm256_blend_epi32::<0b1010_1010>(bits, exponent));
+                Self(_mm256_sub_pd(shifted, _mm256_set1_pd(fine.shift)))
             };
-            let steps = _mm_sub_epi32(_mm_set1_epi32(own as i32), _mm_castps_si128(theirs));
-            Self(_mm256_cvtepi32_pd(steps))
+            [number(apart), number(_mm256_srli_epi64::<32>(apart))]
         }
     }
 }
@@ -348,11 +349,12 @@ impl Lanes for F32x8 {
         unsafe { _mm256_movemask_ps(mask) as u32 }
     }
     #[inline(always)]
-    fn steps_from(self, _: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
         // SAFETY: AVX2 is there (see module).
         unsafe {
             let theirs = _mm256_castps_si256(self.0);
-            Self(_mm256_cvtepi32_ps(_mm256_sub_epi32(_mm256_set1_epi32(own as i32), theirs)))
+            let steps = Self(_mm256_cvtepi32_ps(_mm256_sub_epi32(_mm256_set1_epi32(own as i32), theirs)));
+            [steps * Self::of(step), Self::zero()]
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Lanes of AVX-512. Reached only behind [`available`], through a function that carries
 //! `#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,popcnt,bmi1,bmi2")]` and into which all of this is inlined.
 
+use super::fine::Fine;
 use super::{Lanes, each_lane, operators};
 use crate::math::Real;
 use std::arch::x86_64::*;
@@ -236,13 +237,21 @@ impl Lanes for F64x8 {
         }
     }
     #[inline(always)]
-    fn steps_from(self, which: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
+        let fine = Fine::of(step);
         // SAFETY: AVX-512 is there (see module).
         unsafe {
-            let all = _mm512_castpd_si512(self.0);
-            let shifted = if which == 0 { all } else { _mm512_srli_epi64::<32>(all) };
-            let theirs = _mm512_cvtepi64_epi32(shifted);
-            Self(_mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_set1_epi32(own as i32), theirs)))
+            let own = _mm512_set1_epi64((own ^ Fine::MIDDLE) as i64);
+            let apart = _mm512_sub_epi32(own, _mm512_castpd_si512(self.0));
+            let (low, exponent) = (_mm512_set1_epi64(0xffff_ffff), _mm512_set1_epi64(fine.exponent as i64));
+            let number = |bits| {
+                let shifted = _mm512_castsi512_pd(bits);
+                Self(_mm512_sub_pd(shifted, _mm512_set1_pd(fine.shift)))
+            };
+            // (apart & low) | exponent
+            let first = _mm512_ternarylogic_epi64::<0xea>(apart, low, exponent);
+            let second = _mm512_or_si512(_mm512_srli_epi64::<32>(apart), exponent);
+            [number(first), number(second)]
         }
     }
 }
@@ -331,11 +340,12 @@ impl Lanes for F32x16 {
         }
     }
     #[inline(always)]
-    fn steps_from(self, _: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
         // SAFETY: AVX-512 is there (see module).
         unsafe {
             let theirs = _mm512_castps_si512(self.0);
-            Self(_mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_set1_epi32(own as i32), theirs)))
+            let steps = Self(_mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_set1_epi32(own as i32), theirs)));
+            [steps * Self::of(step), Self::zero()]
         }
     }
 }

@@ -4,6 +4,8 @@
 pub mod avx2;
 #[cfg(target_arch = "x86_64")]
 pub mod avx512;
+#[cfg(target_arch = "x86_64")]
+mod fine;
 #[cfg(target_arch = "aarch64")]
 pub mod neon;
 pub mod plain;
@@ -92,9 +94,10 @@ pub trait Lanes: Real {
         }
     }
 
-    /// The lanes hold places on a fine grid, packed by [`Element::packed`]: how far `own` is from coordinate number `which`
-    /// of each, in steps of the grid. Coordinates count modulo 2^32, so only the distance has to be small.
-    fn steps_from(self, which: usize, own: u32) -> Self;
+    /// The lanes hold places on a fine grid, packed by [`Element::packed`]: how far `own`, the bits of one such number, is from each, in as
+    /// many coordinates as a number holds (others are zero), in units of which a step of the grid is `step`, a power of two: in double
+    /// precision nothing is rounded. Coordinates count modulo 2^32, so only the distance has to be small.
+    fn offsets(self, own: u64, step: f64) -> [Self; 2];
 }
 
 /// Most lanes of any type.

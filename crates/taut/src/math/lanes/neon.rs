@@ -148,17 +148,18 @@ impl Lanes for F64x4 {
         }
     }
     #[inline(always)]
-    fn steps_from(self, which: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
         unsafe {
             let (a, b) = (vreinterpretq_u64_f64(self.0[0]), vreinterpretq_u64_f64(self.0[1]));
-            let (a, b) = if which == 0 {
-                (vmovn_u64(a), vmovn_u64(b))
-            } else {
-                (vshrn_n_u64::<32>(a), vshrn_n_u64::<32>(b))
+            let wide = |own: u32, theirs| {
+                let steps = vreinterpret_s32_u32(vsub_u32(vdup_n_u32(own), theirs));
+                vmulq_n_f64(vcvtq_f64_s64(vmovl_s32(steps)), step)
             };
-            let own = vdup_n_u32(own);
-            let wide = |theirs| vcvtq_f64_s64(vmovl_s32(vreinterpret_s32_u32(vsub_u32(own, theirs))));
-            Self([wide(a), wide(b)])
+            let (low, high) = (own as u32, (own >> 32) as u32);
+            [
+                Self([wide(low, vmovn_u64(a)), wide(low, vmovn_u64(b))]),
+                Self([wide(high, vshrn_n_u64::<32>(a)), wide(high, vshrn_n_u64::<32>(b))]),
+            ]
         }
     }
 }
@@ -238,12 +239,12 @@ impl Lanes for F32x8 {
         lanes.iter().enumerate().fold(0, |bits, (l, lane)| bits | (lane & 1) << l)
     }
     #[inline(always)]
-    fn steps_from(self, _: usize, own: u32) -> Self {
+    fn offsets(self, own: u64, step: f64) -> [Self; 2] {
         unsafe {
-            let own = vdupq_n_u32(own);
+            let own = vdupq_n_u32(own as u32);
             let steps =
                 |theirs| vcvtq_f32_s32(vreinterpretq_s32_u32(vsubq_u32(own, vreinterpretq_u32_f32(theirs))));
-            Self([steps(self.0[0]), steps(self.0[1])])
+            [Self([steps(self.0[0]), steps(self.0[1])]) * Self::of(step), Self::zero()]
         }
     }
 }

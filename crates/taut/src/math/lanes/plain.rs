@@ -1,6 +1,6 @@
 //! Lanes without intrinsics: numbers in an array, left to the compiler. Runs on every machine.
 
-use super::Lanes;
+use super::{Element, Lanes};
 use crate::math::Real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -158,10 +158,13 @@ macro_rules! lanes {
                 (0..$n).fold(0, |bits, l| bits | u32::from(mask[l]) << l)
             }
             #[inline(always)]
-            fn steps_from(self, which: usize, own: u32) -> Self {
-                self.map(|x| {
-                    let theirs = (x.to_bits() >> (32 * which)) as u32;
-                    own.wrapping_sub(theirs) as i32 as $e
+            fn offsets(self, own: u64, step: f64) -> [Self; 2] {
+                std::array::from_fn(|which| {
+                    if which >= <$e>::COORDINATES {
+                        return Self([0.0; $n]);
+                    }
+                    let own = (own >> (32 * which)) as u32;
+                    self.map(|x| own.wrapping_sub(x.coordinate(which)) as i32 as $e * step as $e)
                 })
             }
         }

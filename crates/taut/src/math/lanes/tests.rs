@@ -84,13 +84,18 @@ fn exercise_pairs<V: Lanes>() {
     let coordinate = |l: usize, which: usize| (7 * l as u32 + 3 * which as u32).wrapping_sub(10);
     let packed: Vec<V::E> =
         (0..V::N).map(|l| V::E::packed(&[coordinate(l, 0), coordinate(l, 1)][..V::E::COORDINATES])).collect();
-    for which in 0..V::E::COORDINATES {
-        assert_eq!(packed[1].coordinate(which), coordinate(1, which));
-        let mut steps = vec![V::E::default(); V::N];
-        // SAFETY: `N` numbers behind each pointer.
-        unsafe { V::load(packed.as_ptr()).steps_from(which, 5).store(steps.as_mut_ptr()) };
-        for (l, step) in steps.into_iter().enumerate() {
-            assert_eq!(step.to_f64(), 15.0 - 7.0 * l as f64 - 3.0 * which as f64, "lane {l}");
+    for step in [1.0, 0.25, 2.0f64.powi(-40)] {
+        // SAFETY: `N` numbers behind the pointer.
+        let offsets = unsafe { V::load(packed.as_ptr()).offsets(5 | 5 << 32, step) };
+        for (which, lanes) in offsets.into_iter().enumerate().take(V::E::COORDINATES) {
+            assert_eq!(packed[1].coordinate(which), coordinate(1, which));
+            let mut apart = vec![V::E::default(); V::N];
+            // SAFETY: as above.
+            unsafe { lanes.store(apart.as_mut_ptr()) };
+            for (l, apart) in apart.into_iter().enumerate() {
+                let steps = 15.0 - 7.0 * l as f64 - 3.0 * which as f64;
+                assert_eq!(apart.to_f64(), steps * step, "lane {l}");
+            }
         }
     }
 }

@@ -6,14 +6,16 @@
 //!   start   | first block of each particle                                |
 //!   ids     | b0 b1 b2 b3 | b4 b5 b6 b7 | b8  a  a  a | ...   the last block is filled up with a itself
 //!   slope   | s of the same pairs, single, 0 in the fill  | ...   s = W'/r without its unit
-//!   over_q  | h/r of the same pairs, 0 in the fill        | ...   (read only where a pass needs the direction)
+//!   over_r  | 1/r of the same pairs, 0 in the fill        | ...   (read only where a pass needs the direction)
 //! records:  | what the pass reads of particle 0 | its place | its volume | up to a multiple of four numbers | of particle 1 | ...
+//!                                                            times the unit of s
 //! ```
 //!
 //! What the loop streams through matters: a list that held the gradient too (24 bytes a pair in 3D) ran at half
 //! the speed of one with 12, and this one has 8 (12 with the direction). The distance x_ab comes from the records instead, where each
-//! is used by all neighbours: a place is D whole numbers, the position in steps of 2^-30 of the kernel's support, counted modulo 2^32.
-//! Their difference is exact, changes sign with the pair, and is 1e-9 of the support off; so `grad W V_b = w x_ab` and `e = x_ab / r`.
+//! is used by all neighbours: a place is D whole numbers, the position in steps of some 2^-30 of the kernel's support, counted modulo 2^32.
+//! Their difference is exact, changes sign with the pair, and is 2e-9 of the support off; so `grad W V_b = w x_ab` and `e = x_ab / r`. A step is a power
+//! of two in metres, so that differences become distances by setting an exponent ([`Lanes::offsets`]).
 //! In single precision s is 1e-7 off, but the same for both halves of a pair; so V_a V_b s is too, and momentum is exact
 //! to rounding in the precision of the run. The correction matrix is made from the same weights, so that gradients of linear fields are exact.
 //!
@@ -33,8 +35,14 @@ use rayon::prelude::*;
 
 /// Blocks between the one at work and the one asked for.
 const AHEAD: usize = 16;
-/// Steps of the fine grid in the support of the kernel.
-pub const STEPS: f64 = (1_u32 << 30) as f64;
+/// Most steps of the fine grid in the support of the kernel; more than half as many are taken.
+const MOST_STEPS: f64 = (1_u32 << 30) as f64;
+
+/// The next power of two that is not less than `x`, a positive number.
+fn power_of_two(x: f64) -> f64 {
+    let below = f64::from_bits(x.to_bits() & !((1 << 52) - 1));
+    if below < x { 2.0 * below } else { below }
+}
 
 /// Numbers that hold the place of a particle.
 pub const fn place_words<E: Element, const D: usize>() -> usize {
@@ -62,8 +70,8 @@ pub struct PairChunk<E> {
     pub slope: Lines<f32>,
     /// V_b W'/r of each; nothing where the volume stands in the records.
     pub w: Lines<E>,
-    /// h/r of each.
-    pub over_q: Lines<f32>,
+    /// 1/r of each, 1/m.
+    pub over_r: Lines<f32>,
     /// Pairs, without the fill.
     pub pairs: u64,
     /// A particle with the fewest neighbours, and how many.
@@ -75,9 +83,9 @@ pub struct PairChunk<E> {
 impl<E> Default for PairChunk<E> {
     fn default() -> Self {
         let (ids, w) = (Lines::default(), Lines::default());
-        let (slope, over_q) = (Lines::default(), Lines::default());
+        let (slope, over_r) = (Lines::default(), Lines::default());
         let loneliest = (0, u32::MAX);
-        Self { start: Vec::new(), ids, slope, w, over_q, pairs: 0, loneliest, q2: Vec::new() }
+        Self { start: Vec::new(), ids, slope, w, over_r, pairs: 0, loneliest, q2: Vec::new() }
     }
 }
 
@@ -86,27 +94,17 @@ impl<E> Default for PairChunk<E> {
 pub struct PairList<E, const D: usize> {
     /// Chunk by chunk.
     pub chunks: Vec<PairChunk<E>>,
-    /// The places of all particles: [`place_words`] columns, with readable numbers behind each.
-    places: Vec<E>,
+    /// The places of all particles, and their volumes if those stand apart: [`tail_words`] columns, with readable numbers behind each.
+    tails: Vec<E>,
     /// Numbers from one column to the next.
     column: usize,
-    units: Units,
-}
-
-/// What turns the numbers of a list and of places into metres.
-#[derive(Clone, Copy, Debug, Default)]
-struct Units {
-    /// A step of the fine grid, m.
+    /// A step of the fine grid, m: a power of two.
     step: f64,
-    /// The same over the smoothing length.
-    step_over_h: f64,
-    /// What makes W'/r of a slope, m^-(D+2).
-    steepness: f64,
 }
 
 impl<E, const D: usize> Default for PairList<E, D> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), places: Vec::new(), column: 0, units: Units::default() }
+        Self { chunks: Vec::new(), tails: Vec::new(), column: 0, step: 0.0 }
     }
 }
 
@@ -117,7 +115,7 @@ impl<E: Plain> PairChunk<E> {
         if self.ids.len() < all {
             let room = all + all / 4;
             self.ids.resize(room);
-            self.over_q.resize(room);
+            self.over_r.resize(room);
             if apart { self.slope.resize(room) } else { self.w.resize(room) }
         }
         if self.q2.len() < one {
@@ -127,17 +125,22 @@ impl<E: Plain> PairChunk<E> {
 }
 
 impl<E: Element + Plain, const D: usize> PairList<E, D> {
-    /// Prepares for particles at `x` and a kernel: chunks and places.
-    pub fn prepare(&mut self, x: [&[f64]; D], kernel: &Kernel) {
+    /// Prepares for particles at `x`, of these volumes, and a kernel: chunks, places and volumes.
+    pub fn prepare(&mut self, (x, volume): ([&[f64]; D], &[f64]), kernel: &Kernel) {
         let len = x[0].len();
-        let step = kernel.support() / STEPS;
-        self.units = Units { step, step_over_h: step / kernel.h(), steepness: kernel.steepness() };
+        self.step = power_of_two(kernel.support() / MOST_STEPS);
         self.chunks.resize_with(len.div_ceil(CHUNK), PairChunk::default);
         self.column = len + MOST_LANES;
-        self.places.resize(self.column * place_words::<E, D>(), E::default());
-        let per_metre = 1.0 / step;
+        self.tails.resize(self.column * tail_words::<E, D>(), E::default());
+        let per_metre = 1.0 / self.step;
         let steps = |x: f64| floor(x * per_metre + 0.5) as u32;
-        for (word, column) in self.places.chunks_exact_mut(self.column).enumerate() {
+        for (word, column) in self.tails.chunks_exact_mut(self.column).enumerate() {
+            if word >= place_words::<E, D>() {
+                let chunks = column[..len].par_chunks_mut(CHUNK).zip(volume.par_chunks(CHUNK));
+                let steep = |(to, v): (&mut E, &f64)| *to = E::from_f64(v * kernel.steepness());
+                chunks.for_each(|(column, volume)| column.iter_mut().zip(volume).for_each(steep));
+                continue;
+            }
             let axes = &x[word * E::COORDINATES..D.min((word + 1) * E::COORDINATES)];
             column[..len].par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, places)| {
                 for (i, place) in places.iter_mut().enumerate() {
@@ -151,15 +154,20 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
         }
     }
 
-    /// The columns of places.
-    pub fn places(&mut self) -> impl Iterator<Item = *mut E> {
-        self.places.chunks_exact_mut(self.column.max(1)).map(|column| column.as_mut_ptr())
+    /// The columns that stand in a record behind what the pass reads.
+    pub fn tails(&mut self) -> impl Iterator<Item = *mut E> {
+        self.tails.chunks_exact_mut(self.column.max(1)).map(|column| column.as_mut_ptr())
+    }
+
+    /// A step of the fine grid, m.
+    pub fn step(&self) -> f64 {
+        self.step
     }
 
     /// The coordinates of a particle on the fine grid.
     #[inline(always)]
     pub fn place(&self, a: usize) -> [u32; D] {
-        let word = |axis: usize| self.places[axis / E::COORDINATES * self.column + a];
+        let word = |axis: usize| self.tails[axis / E::COORDINATES * self.column + a];
         std::array::from_fn(|axis| word(axis).coordinate(axis % E::COORDINATES))
     }
 
@@ -185,14 +193,14 @@ impl<E: Element + Plain, const D: usize> PairList<E, D> {
 #[derive(Clone, Copy)]
 pub struct Weights<'a, E, const D: usize> {
     chunk: &'a PairChunk<E>,
-    units: Units,
+    step: f64,
 }
 
 impl<E: Element + Plain, const D: usize> PairList<E, D> {
     /// The weights of a chunk.
     #[inline(always)]
     pub fn weights(&self, chunk: usize) -> Weights<'_, E, D> {
-        Weights { chunk: &self.chunks[chunk], units: self.units }
+        Weights { chunk: &self.chunks[chunk], step: self.step }
     }
 }
 
@@ -221,7 +229,7 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
             prefetch(slope.wrapping_add(AHEAD * V::N));
             // SAFETY: as above.
             let slope = unsafe { V::load_single(slope) };
-            slope * tail[place_words::<E, D>()] * V::of(self.units.steepness)
+            slope * tail[place_words::<E, D>()]
         } else {
             debug_assert!(first + V::N <= self.chunk.w.len());
             // SAFETY: `w` is as long as `ids`, and `ids` found this block in it.
@@ -232,15 +240,15 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
         }
     }
 
-    /// h/r of the pairs from `first` on.
+    /// 1/r of the pairs from `first` on.
     #[inline(always)]
-    fn over_q<V: Lanes<E = E>>(&self, first: usize) -> V {
-        debug_assert!(first + V::N <= self.chunk.over_q.len());
-        // SAFETY: `over_q` is as long as `ids`, and `ids` found this block in it.
-        let over_q = unsafe { self.chunk.over_q.as_ptr().add(first) };
-        prefetch(over_q.wrapping_add(AHEAD * V::N));
+    fn over_r<V: Lanes<E = E>>(&self, first: usize) -> V {
+        debug_assert!(first + V::N <= self.chunk.over_r.len());
+        // SAFETY: `over_r` is as long as `ids`, and `ids` found this block in it.
+        let over_r = unsafe { self.chunk.over_r.as_ptr().add(first) };
+        prefetch(over_r.wrapping_add(AHEAD * V::N));
         // SAFETY: as above.
-        unsafe { V::load_single(over_q) }
+        unsafe { V::load_single(over_r) }
     }
 
     /// The pairs of a block, with their directions if wanted. `tail` are the numbers of the neighbours behind what the pass reads, `own` is the
@@ -253,14 +261,19 @@ impl<'a, E: Element + Plain, const D: usize> Weights<'a, E, D> {
         tail: &[V],
     ) -> Pair<V, D, ALL_WEIGHTS> {
         let first = block * V::N;
-        let mut steps = Vector::zero();
-        for axis in 0..D {
-            steps.0[axis] = tail[axis / E::COORDINATES].steps_from(axis % E::COORDINATES, own[axis]);
+        let mut x = Vector::zero();
+        for axis in (0..D).step_by(E::COORDINATES) {
+            let second = E::COORDINATES > 1 && axis + 1 < D;
+            let high = if second { u64::from(own[axis + 1]) << 32 } else { 0 };
+            let place = tail[axis / E::COORDINATES];
+            let offsets = place.offsets(u64::from(own[axis]) | high, self.step);
+            x.0[axis] = offsets[0];
+            if second {
+                x.0[axis + 1] = offsets[1];
+            }
         }
         let w = self.w(first, tail);
-        let over_r =
-            if directed { self.over_q::<V>(first) * V::of(self.units.step_over_h) } else { V::zero() };
-        let x = steps.times(V::of(self.units.step));
-        Pair { grad_w: steps.times(w * V::of(self.units.step)), w, e: steps.times(over_r), x }
+        let over_r = if directed { self.over_r::<V>(first) } else { V::zero() };
+        Pair { grad_w: x.times(w), w, e: x.times(over_r), x, over_r }
     }
 }

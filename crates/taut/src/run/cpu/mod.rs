@@ -116,14 +116,15 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     fn search(&mut self, how: &Relist) -> Result<(), SearchError> {
         let x = self.store.particles().vector(how.positions);
         self.grid.bin(x, how.kernel.support())?;
-        self.list.prepare(x, &how.kernel);
+        let volume = self.store.particles().column(Quantity::Volume, 0);
+        self.list.prepare((x, volume), &how.kernel);
         let mut chunks = std::mem::take(&mut self.list.chunks);
         let (list, pairs) = (&self.list, AtomicU64::new(0));
         self.slots.fill(self.grid.ids(), |a| list.place(a));
         let listing = walk::Listing {
             grid: &self.grid,
             x,
-            volume: self.store.particles().column(Quantity::Volume, 0),
+            volume,
             same: (how.among == Among::SameBody && !self.one_body()).then_some(self.bodies.as_slice()),
             kernel: &how.kernel,
             slots: &self.slots,
@@ -154,10 +155,7 @@ impl<const D: usize, P: Precision> Cpu<D, P> {
     /// The pair loop over packed records and a list.
     fn listed<S: PairSum<D>>(&mut self, sum: &S, then: Then<'_>, now: Now<f64>) {
         let mut own = self.store.pair_places::<S::Reads>();
-        self.list.places().for_each(|column| own.push(column));
-        if list::volume_apart::<P::E, D>() {
-            own.push(self.store.pair_column(Quantity::Volume, 0));
-        }
+        self.list.tails().for_each(|column| own.push(column));
         let (stride, len) = (walk::stride::<S::Reads, P::E, D>(), self.len());
         if self.records.len() < len * stride {
             self.records.resize(len * stride);

@@ -4,7 +4,7 @@
 //! particles, row after row along the long axis:   . . . a a+1 a+2 a+3 . . .   . . . b b+1 b+2 b+3 . . .
 //!                                                       \_ one block _/             \_ a + delta _/
 //! a block's program:   (delta, code, which lanes)  (delta, code, which lanes)  ...
-//! the code book:       code -> grad W, W'/r, e of one cell of the stencil
+//! the code book:       code -> grad W, W'/r, x, 1/r of one cell of the stencil
 //! ```
 //!
 //! A block is as many consecutive particles of a row as there are lanes (fewer at its end). The neighbours of a block in one cell of the stencil are
@@ -24,8 +24,8 @@ use std::ops::Range;
 struct Code<const D: usize> {
     grad_w: [f64; D],
     w: f64,
-    e: [f64; D],
     x: [f64; D],
+    over_r: f64,
 }
 
 /// Neighbours of a block in one cell of the stencil.
@@ -133,7 +133,7 @@ impl<const D: usize> Stencil<D> {
                 let e = e.times(1.0 / length);
                 let slope = kernel.dw(r) * volume;
                 let x = e.times(r);
-                self.codes.push(Code { grad_w: e.times(slope).0, w: slope / r, e: e.0, x: x.0 });
+                self.codes.push(Code { grad_w: e.times(slope).0, w: slope / r, x: x.0, over_r: 1.0 / r });
                 offsets.push(cell);
             }
         }
@@ -198,7 +198,8 @@ impl<const D: usize> Stencil<D> {
             }
             v
         };
-        Pair { grad_w: splat(code.grad_w), w: V::of(code.w), e: splat(code.e), x: splat(code.x) }
+        let (x, over_r) = (splat(code.x), V::of(code.over_r));
+        Pair { grad_w: splat(code.grad_w), w: V::of(code.w), e: x.times(over_r), x, over_r }
     }
 
     /// The pair of an entry whose lanes do not all count.

@@ -6,7 +6,7 @@ use crate::math::{Element, Lanes, MOST_LANES};
 use crate::neighbours::{CellGrid, Near};
 use crate::particles::Plain;
 use crate::run::cpu::kit::Kit;
-use crate::run::cpu::list::{PairChunk, PairList, STEPS, volume_apart};
+use crate::run::cpu::list::{PairChunk, PairList, volume_apart};
 use crate::run::cpu::places::Shared;
 use crate::run::cpu::slots::Slots;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -41,8 +41,8 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         (first, list): (usize, &mut PairChunk<E>),
     ) -> usize {
         let own = self.list.place(a);
-        let reach = self.kernel.support() / self.kernel.h();
-        let (square, per_square) = (W::of(STEPS * STEPS), W::of((reach / STEPS).powi(2)));
+        let (support, step) = (self.kernel.support(), self.list.step());
+        let (square, per_square) = (W::of((support / step).powi(2)), W::of((step / self.kernel.h()).powi(2)));
         let slots = self.grid.ids();
         let mut found = 0;
         for part in 0..near.parts() {
@@ -57,7 +57,8 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
                 let mut r2 = W::zero();
                 for axis in 0..D {
                     // SAFETY: the slots of a range exist, and numbers behind the last are readable.
-                    let steps = unsafe { W::load(self.slots.from(axis, slot)).steps_from(0, own[axis]) };
+                    let [steps, _] =
+                        unsafe { W::load(self.slots.from(axis, slot)).offsets(own[axis].into(), 1.0) };
                     r2 = steps.mul_add(steps, r2);
                 }
                 let left = (range.end - slot).min(W::N);
@@ -105,13 +106,13 @@ impl<E: Element + Plain, const D: usize> Listing<'_, E, D> {
         let len = len.next_multiple_of(W::N);
         list.ids[first + found..first + len].fill(a as u32);
         list.q2[found..len].fill(0.0);
-        let steepness = self.kernel.steepness();
+        let (steepness, per_h) = (self.kernel.steepness(), W::of(1.0 / self.kernel.h()));
         for at in (0..len).step_by(W::N) {
             // SAFETY: there is room for `len` numbers, a multiple of the lanes.
             let slope = unsafe {
                 let q = W::load(list.q2.as_ptr().add(at)).sqrt();
                 let over_q = W::select(W::zero().lt(q), W::one() / q, W::zero());
-                over_q.store(list.over_q.as_mut_ptr().add(first + at));
+                (over_q * per_h).store(list.over_r.as_mut_ptr().add(first + at));
                 self.kernel.slope(q) * over_q
             };
             if volume_apart::<E, D>() {
