@@ -21,13 +21,13 @@ pub const STILL: Now<f64> = Now { t: 0.0, dt: 0.0 };
 /// A step of one second: a rate integrated over it is the rate itself.
 pub const ONE: Now<f64> = Now { t: 0.0, dt: 1.0 };
 
-/// What the weights of a pair are off where a list holds them: 1/r is rounded to single precision, 2^-24, and x_ab is 2^-30 of
+/// What the weights of a pair are off where a list holds them: 1/r is rounded to single precision, 2^-24, and x_ab is up to 2^-29 of
 /// the support off. Lattice-born total Lagrangian bodies have no list and no such rounding.
 pub const SINGLE: f64 = 6e-8;
 
 /// What a listed sum of x_ab W'/r V_b over a lattice leaves, times dp, where it cancels in the continuum (h = 1.3 dp, 2D): each component of
-/// x_ab is up to one step of the fine grid off, 2^-30 of the support 2.6 dp, and sum |W'/r| V dp^2 = 1.35; two components.
-pub const PLACED: f64 = 1.35 * 2.6 * 9.32e-10 * 1.42;
+/// x_ab is up to one step of the fine grid off, up to 2^-29 of the support 2.6 dp, and sum |W'/r| V dp^2 = 1.35; two components.
+pub const PLACED: f64 = 1.35 * 2.6 * 1.863e-9 * 1.42;
 
 /// Which formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
