@@ -3,9 +3,9 @@
 use super::integrated::{Integrate, RateSum, Shear, state};
 use super::kick::{ControlledKick, ControlledPush};
 use super::motion::Drift;
-use super::pressure::{Pushing, push};
-use super::repulsion::{Oppose, Repulsion};
-use super::{FIELDS, Hypoelastic, joined, same_body};
+use super::pressure::Pushing;
+use super::repulsion::{Oppose, Repelling, Repulsion};
+use super::{FIELDS, Hypoelastic, joined};
 use crate::field::Quantity;
 use crate::formulation::{Formulation, State};
 use crate::kernel::Kernel;
@@ -52,10 +52,8 @@ impl<const D: usize> PairSum<D> for Momentum<'_> {
         _: &Now<S>,
     ) {
         let pushing = |p: &Stressed<S, D>| Pushing { v: p.v, p: p.p, z: p.z };
-        push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
-        let inside = same_body(a.body, b.body);
-        ab.dot(&mut sum.f, (a.s + b.s).times(inside));
-        self.0.push(&mut sum.g, (a.r + b.r).times(inside), ab);
+        let seen = |p: &Stressed<S, D>| Repelling { pushing: pushing(p), s: p.s, r: p.r, body: p.body };
+        self.0.add(sum, (&seen(a), &seen(b)), ab);
     }
 }
 

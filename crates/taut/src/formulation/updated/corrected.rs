@@ -3,9 +3,9 @@
 use super::integrated::{IntegrateCorrected, RateSum, Shear, state};
 use super::kick::{ControlledKick, ControlledPush};
 use super::motion::{Drift, MomentSum};
-use super::pressure::{Pushing, push};
-use super::repulsion::{Oppose, Repulsion};
-use super::{FIELDS, Hypoelastic, joined, same_body};
+use super::pressure::Pushing;
+use super::repulsion::{Oppose, Repelling, Repulsion};
+use super::{FIELDS, Hypoelastic, joined};
 use crate::correction::Invert;
 use crate::field::{Of, Quantity};
 use crate::formulation::{Formulation, State};
@@ -74,10 +74,8 @@ impl<const D: usize> PairSum<D> for Momentum<'_> {
         _: &Now<S>,
     ) {
         let pushing = |p: &Stressed<S, D>| Pushing { v: p.v, p: p.p, z: p.z };
-        push((&mut sum.f, &mut sum.power), (&pushing(a), &pushing(b)), ab);
-        let inside = same_body(a.body, b.body);
-        ab.dot(&mut sum.f, (a.q + b.q).times(inside));
-        self.0.push(&mut sum.g, (a.r + b.r).times(inside), ab);
+        let seen = |p: &Stressed<S, D>| Repelling { pushing: pushing(p), s: p.q, r: p.r, body: p.body };
+        self.0.add(sum, (&seen(a), &seen(b)), ab);
     }
 }
 

@@ -1,5 +1,8 @@
 //! Artificial stress: what pushes apart the particles that tension clumps (Gray, Monaghan and Swift 2001).
 
+use super::kick::ControlledPush;
+use super::pressure::{Pushing, push};
+use super::same_body;
 use crate::field::Of;
 use crate::kernel::Kernel;
 use crate::math::{Real, Tensor, Vector};
@@ -30,9 +33,23 @@ impl Repulsion {
         Self { strength, ..self }
     }
 
+    /// Adds what pressure and its dissipation, the stress inside of a body, and artificial stress make of a pair.
+    #[inline(always)]
+    pub fn add<S: Real, const D: usize, const M: u8>(
+        &self,
+        sum: &mut ControlledPush<S, D>,
+        (a, b): (&Repelling<S, D>, &Repelling<S, D>),
+        ab: &Pair<S, D, M>,
+    ) {
+        push((&mut sum.f, &mut sum.power), (&a.pushing, &b.pushing), ab);
+        let inside = same_body(a.body, b.body);
+        ab.dot(&mut sum.f, (a.s + b.s).times(inside));
+        self.repel(&mut sum.g, (a.r + b.r).times(inside), ab);
+    }
+
     /// Adds f_ab^4 r grad W V_b to `sum`, with r the R of both.
     #[inline(always)]
-    pub fn push<S: Real, const D: usize, const M: u8>(
+    fn repel<S: Real, const D: usize, const M: u8>(
         &self,
         sum: &mut Vector<S, D>,
         r: Tensor<S, D>,
@@ -42,6 +59,18 @@ impl Repulsion {
         let squared = f * f;
         ab.dot(sum, r.times(squared * squared));
     }
+}
+
+/// A particle as this force sees it.
+pub struct Repelling<S, const D: usize> {
+    /// As the pressure sees it.
+    pub pushing: Pushing<S, D>,
+    /// The stress that it hands to its neighbours.
+    pub s: Tensor<S, D>,
+    /// Its artificial stress.
+    pub r: Tensor<S, D>,
+    /// Its body.
+    pub body: S,
 }
 
 record! {
